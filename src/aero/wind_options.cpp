@@ -66,7 +66,15 @@ void check_turbulence(const TurbulenceOptions& o, const scene::Report& report) {
   if (o.model == TurbulenceModel::mann)
     for (double n : o.points)
       if (n != std::floor(n) || n < 2.0) return report("points", fmt::format("{} is not a number of points", n));
-  if (o.model == TurbulenceModel::kaimal && !(o.duration_s >= 10.0 * o.step_s)) report("duration_s", "must be many steps");
+  if (o.model != TurbulenceModel::kaimal) return;
+  if (!(o.duration_s >= 10.0 * o.step_s)) return report("duration_s", "must be many steps");
+  // Each frequency has a matrix over all points to factor; each point and plane has some 40 bytes.
+  constexpr double most_work = 1e13, most_values = 1e8;
+  const double points = double(o.points_across) * double(o.points_up), planes = o.duration_s / o.step_s;
+  if (points * planes > most_values || planes * std::pow(points, 3) / 6.0 > most_work)
+    report("duration_s", fmt::format("a box of {} x {} points and {:.3g} planes (duration_s / step_s) is more than can be made: "
+                                     "take fewer points_across and points_up, a longer step_s, or a box from a file",
+                                     o.points_across, o.points_up, planes));
 }
 
 const scene::Section<TurbulenceOptions>& turbulence_section() {
@@ -106,7 +114,7 @@ const scene::Section<TurbulenceOptions>& turbulence_section() {
           .only_if("model", kaimal)
           .only_if("extreme", {"true"})
           .number("sigma_m_s", &TurbulenceOptions::sigma_m_s, "m/s",
-                  "Standard deviation along the wind, instead of that of the intensity.", scene::positive())
+                  "Standard deviation along the wind, instead of that of the intensity.", scene::above(0.0).up_to(100.0))
           .only_if("model", kaimal)
           .integer("points_across", &TurbulenceOptions::points_across, "-", "Points of the box across the wind.",
                    scene::between(2, 100))

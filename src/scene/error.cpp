@@ -21,7 +21,7 @@ std::string list(const std::vector<Problem>& problems) {
 std::string Problem::text() const {
   std::string text = source;
   if (line > 0) text += fmt::format(":{}", line);
-  if (!key.empty()) text += ": " + key;
+  if (!key.empty()) text += (text.empty() ? "" : ": ") + key;
   if (!value.empty()) text += " = " + value;
   return text + ": " + message;
 }

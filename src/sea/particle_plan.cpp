@@ -310,6 +310,18 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);
       const bool outside_y = !planar && t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1]);
       if (outside_x || outside_y) wrong(key, "stands in a wall of the tank" + size);
+      for (std::size_t n = 0; n < t.meshes.size(); ++n) {
+        const scene::MeshOptions& m = t.meshes[n];
+        if (!m.surface) continue;
+        const auto& wall = m.prism ? *m.prism : *m.surface;
+        const bool around = m.water == "inside";
+        if (std::ranges::any_of(points, [&](const Eigen::Vector3d& x) {
+              Eigen::Vector3d at = body.described.point(x);
+              if (planar) at.y() = 0.0;
+              return (around || wall.box().contains(at)) && (around ? -1.0 : 1.0) * wall.signed_distance(at) < -d;
+            }))
+          wrong(key, fmt::format("stands in sea.tank.meshes[{}]{}", n, size));
+      }
     }
   return problems;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/potential.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,13 +28,55 @@ double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(sum / double(values.size()));
 }
 
-/// Of the series at some 400 of its samples, which is what the fit can bear; all where there are fewer.
-waves::RadiationPoles fit_poles(const std::vector<double>& series, double step, double tolerance) {
+/// Of so many of the series' values at some 400 of them, which is what the fit can bear; its error is that of all values.
+waves::RadiationPoles fit_some(const std::vector<double>& series, std::size_t count, double step, double tolerance) {
   constexpr std::size_t most = 400;
-  const std::size_t every = std::max<std::size_t>(1, (series.size() - 1) / most);
-  std::vector<double> samples;
-  for (std::size_t n = 0; n < series.size(); n += every) samples.push_back(series[n]);
-  return waves::fit_radiation_poles(samples, double(every) * step, tolerance);
+  const std::size_t every = std::max<std::size_t>(1, (count - 1) / most);
+  std::vector<double> samples, off;
+  for (std::size_t n = 0; n < count; n += every) samples.push_back(series[n]);
+  waves::RadiationPoles poles = waves::fit_radiation_poles(samples, double(every) * step, tolerance);
+  for (std::size_t n = 0; n < series.size(); ++n) off.push_back(series[n] - poles.at(double(n) * step));
+  poles.error = root_mean_square(off);
+  return poles;
+}
+
+/// Where samples of a long series miss what happens between them, those of its part that has not died away.
+waves::RadiationPoles fit_poles(const std::vector<double>& series, double step, double tolerance) {
+  constexpr std::size_t least = 400;
+  waves::RadiationPoles poles = fit_some(series, series.size(), step, tolerance);
+  if (poles.error <= tolerance || series.size() <= least) return poles;
+  std::size_t lives = series.size();
+  for (double rest = 0.0; lives > least; --lives)
+    if ((rest += series[lives - 1] * series[lives - 1]) > 0.1 * tolerance * tolerance * double(series.size())) break;
+  waves::RadiationPoles shorter = fit_some(series, lives, step, tolerance);
+  return shorter.error < poles.error ? shorter : poles;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& key, const std::string& value, const std::string& message) {
+  throw scene::SceneError({{file, 0, key, value, message}});
+}
+
+/// Added mass at infinite frequency and damping of a mode by itself are energy and its loss: neither is below zero, round-off
+/// aside.
+void require_passive(const PotentialOptions& o, const WamitRadiation& radiation, const Matrix6& infinite) {
+  constexpr double round_off = 0.5;  // irregular frequencies too
+  for (int i = 0; i < 6; ++i) {
+    const std::string mode = "mode " + std::to_string(i + 1);
+    double largest = 0.0;
+    for (const Matrix6& b : radiation.damping) largest = std::max(largest, b(i, i));
+    for (std::size_t k = 0; k < radiation.omega.size(); ++k) {
+      const double b = radiation.damping[k](i, i), least = std::min(b, 0.0);
+      if (least < -round_off * std::max(largest, -least))
+        refuse(o.radiation_file, "", "",
+               "damping of " + mode + " is below zero at the period of " + std::to_string(2.0 * pi / radiation.omega[k]) +
+                   " s: such waves would drive the body; look at its sign, or leave out what irregular frequencies spoil");
+    }
+    if (infinite(i, i) < 0.0 && infinite(i, i) < -round_off * radiation.added_mass.front().diagonal().cwiseAbs().maxCoeff())
+      refuse(o.radiation_file, "", "",
+             "added mass of " + mode +
+                 " at infinite frequency is below zero: water at rest would give energy; look at its sign, "
+                 "or give the row of period 0");
+  }
 }
 
 }  // namespace
@@ -73,6 +117,9 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
 /// Added mass at infinite frequency, and the memory: of each pair of modes that the file's damping is more than round-off for.
 void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiation& radiation) {
   const std::size_t steps = o.radiation == "none" ? 0 : std::size_t(std::lround(o.memory_s / step_));
+  if (o.radiation != "none" && steps < 2)
+    refuse("", "sea.potential.memory_s", fmt::format("{:g}", o.memory_s),
+           fmt::format("must be at least two steps of {:g} s: the water would remember nothing, as with radiation none", step_));
   std::vector<double> damping(radiation.omega.size());
   std::vector<RetardationSeries> all;
   std::vector<StateSpaceMemory::Fit> fits;
@@ -99,6 +146,7 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
       all.push_back(std::move(series));
     }
   infinite_ = radiation.infinite ? Matrix6(0.5 * (*radiation.infinite + radiation.infinite->transpose())) : from_memory;
+  require_passive(o, radiation, infinite_);
   if (steps == 0) return;
   if (o.radiation == "convolution") {
     memory_.emplace<ConvolutionMemory>(std::move(all), steps, step_);
@@ -116,11 +164,10 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
     else
       fit.poles = fit_poles(s.values, step_, o.fit_tolerance * size);
     if (!(fit.poles.error <= o.fit_tolerance * size))
-      throw scene::SceneError(
-          {{o.radiation_file, 0, "", "",
-            "the memory of modes " + std::to_string(s.i + 1) + " and " + std::to_string(s.j + 1) + " is off by " +
-                std::to_string(fit.poles.error / size) +
-                " of itself with 24 poles: take sea.potential.radiation \"convolution\", or a larger fit_tolerance"}});
+      refuse(o.radiation_file, "", "",
+             "the memory of modes " + std::to_string(s.i + 1) + " and " + std::to_string(s.j + 1) + " is off by " +
+                 std::to_string(fit.poles.error / size) +
+                 " of itself with 24 poles: take sea.potential.radiation \"convolution\", or a larger fit_tolerance");
     if (!fit.poles.pole.empty()) fits.push_back(std::move(fit));
   }
   memory_.emplace<StateSpaceMemory>(std::move(fits));
