@@ -151,7 +151,8 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   if (air_.steady()) {
     // The last row of a chunk that goes on is judged, and written, by the next.
     const std::size_t judged = solver.rows().size() - (march.spent ? 1 : 0);
-    rows_.assign(solver.rows().begin(), solver.rows().begin() + std::ptrdiff_t(judged));
+    // One that has begun again has a row more, of where it began.
+    rows_.assign(solver.rows().begin(), solver.rows().begin() + std::ptrdiff_t(std::min(std::int64_t(judged), left)));
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
     if (march.verdict == aero::Verdict::converged && !march.spent)
