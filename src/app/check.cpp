@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -448,41 +450,75 @@ namespace {
 
 std::string changed_by(const std::optional<double>& change) { return change ? fmt::format("{:+.2g}", *change) : "unknown"; }
 
+/// With quotes for a shell where it needs them.
+std::string as_option(const std::string& override_text) {
+  const char* quote = override_text.find_first_of("\"[") == std::string::npos ? "" : "'";
+  return fmt::format(" --set {0}{1}{0}", quote, override_text);
+}
+
+/// As a section of a study may be called.
+std::string as_name(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
+  return text;
+}
+
+/// A study that tells what a trial cannot: its text, to be put into a file.
+void print_study(const CheckArguments& arguments, const Trial& trial) {
+  const auto listed = [](const std::vector<std::string>& overrides) {
+    std::string text;
+    for (const std::string& o : overrides) text += fmt::format("{}'{}'", text.empty() ? "" : ", ", o);
+    return text;
+  };
+  fmt::print("\n[study]\nscene = \"{}\"\n", std::filesystem::absolute(arguments.scene).lexically_normal().string());
+  if (!arguments.overrides.empty()) fmt::print("set = [{}]\n", listed(arguments.overrides));
+  fmt::print("\n[variants.the_scene_itself]\n");
+  for (const Omission& o : trial.omissions) fmt::print("[variants.{}]\nset = [{}]\n", as_name(o.name), listed(o.overrides));
+  fmt::print("\n[reference]\nvariant = \"the_scene_itself\"\n");
+  for (const std::string& column : arguments.columns)
+    fmt::print("\n[metrics.{}]\ncolumn = \"{}\"\nmeasure = \"{}\"\n", as_name(column), column, trial.steady ? "last" : "mean");
+}
+
 /// What could be left out, with its price in the columns asked for.
-void print_omissions(const CheckArguments& arguments, const coupling::Scenario& scenario) {
+void print_omissions(const CheckArguments& arguments) {
   const std::vector<std::string>& columns = arguments.columns;
-  if (scenario.has_particles() || scenario.resolves_air() || scenario.bodies.empty()) {
-    fmt::print("\nWhat could be left out: not tried, fluids take longer than a trial may; spindrift study does\n");
+  if (columns.empty()) return;
+  std::fflush(stdout);  // what has been said can be read meanwhile
+  const double budget_s = arguments.trial_s > 0.0 ? arguments.trial_s : usual_trial_s;
+  const Trial trial = try_omissions(arguments.scene, arguments.overrides, columns, budget_s);
+  if (!trial.untried.empty()) {
+    fmt::print("\nWhat could be left out: not tried, it would take {}\n", trial.untried);
+    if (trial.forecast_s > budget_s)
+      fmt::print("  a trial has {:g} s; --trial-s {:.0f} gives it as many\n", budget_s, std::ceil(trial.forecast_s));
+    fmt::print("  or put this into a file for spindrift study, which can be stopped and goes on:\n");
+    print_study(arguments, trial);
     return;
   }
-  std::fflush(stdout);  // what has been said can be read meanwhile
-  const Trial trial = try_omissions(arguments.scene, arguments.overrides, columns);
   const std::string length = trial.whole() ? fmt::format("over the whole run, {:g} s", trial.end_s)
                                            : fmt::format("over {:g} of {:g} s, as far as {:g} s of processor time carry",
-                                                         trial.length_s, trial.end_s, trial_budget_s);
-  fmt::print("\nWhat could be left out (tried {}; change of mean and deviation over their last two thirds)\n", length);
+                                                         trial.length_s, trial.end_s, budget_s);
+  const std::string steady = fmt::format("until the march ends, within {:g} s", trial.end_s);
+  fmt::print("\nWhat could be left out (tried {}; change of {})\n", trial.steady ? steady : length,
+             trial.steady ? "the value there" : "mean and deviation over their last two thirds");
   for (const std::string& why : trial.unlike) fmt::print("  effects unknown, the trial is not like the run: {}\n", why);
   if (!trial.whole() && trial.unlike.empty()) fmt::print("  unknown: no larger than its scatter between parts of the trial\n");
   for (std::size_t c = 0; c < columns.size(); ++c)
-    fmt::print("  {:<28}{}: mean {:.4g}, deviation {:.4g}\n", c == 0 ? "the scene itself" : "", columns[c], *trial.own[c].mean,
+    fmt::print("  {:<30}{}: mean {:.4g}, deviation {:.4g}\n", c == 0 ? "the scene itself" : "", columns[c], *trial.own[c].mean,
                *trial.own[c].deviation);
   for (const Omission& o : trial.omissions) {
     if (!o.refused.empty()) {
-      fmt::print("  {:<28}cannot be: {}\n", o.name, o.refused);
+      fmt::print("  {:<30}cannot be: {}\n", o.name, o.refused);
       continue;
     }
     const double percent = 100.0 * o.saving.error;
     if (o.saving.shows())
-      fmt::print("  {:<28}saves {:.0f} % (+- {:.1g}), by", o.name, 100.0 * o.saving.share, percent);
+      fmt::print("  {:<30}saves {:.0f} % (+- {:.1g}), by", o.name, 100.0 * o.saving.share, percent);
     else
-      fmt::print("  {:<28}saves nothing that shows (+- {:.1g} %), by", o.name, percent);
-    for (const std::string& text : o.overrides) {
-      const char* quote = text.find('"') == std::string::npos ? "" : "'";
-      fmt::print(" --set {0}{1}{0}", quote, text);
-    }
+      fmt::print("  {:<30}saves nothing that shows (+- {:.1g} %), by", o.name, percent);
+    for (const std::string& text : o.overrides) fmt::print("{}", as_option(text));
     fmt::print("\n");
     for (std::size_t c = 0; c < columns.size(); ++c)
-      fmt::print("  {:<28}{}: mean {}, deviation {}\n", "", columns[c], changed_by(o.effects[c].mean),
+      fmt::print("  {:<30}{}: mean {}, deviation {}\n", "", columns[c], changed_by(o.effects[c].mean),
                  changed_by(o.effects[c].deviation));
   }
 }
@@ -500,6 +536,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (world.rank != 0) return done;
     print_resolved_rotor(arguments.scene, scenario, scene::angle_doubts(document.echo()), arguments.calibrate, world.size,
                          base_cost(0.0));
+    print_omissions(arguments);
     return done;
   }
   if (scenario.has_flow()) {
@@ -521,11 +558,12 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},
                scenario.aero.flow->time == "steady");
+    print_omissions(arguments);
     return done;
   }
-  const coupling::Scenario asked = scenario;
+  const coupling::OutputOptions output = scenario.output;
   FloatingSystem floating(std::move(scenario));
-  require_expected_columns(document, asked.output, columns_of(floating));
+  require_expected_columns(document, output, columns_of(floating));
   const scene::Doubts angles = scene::angle_doubts(document.echo());
   const coupling::Start start = start_or_doubts(floating, angles, world.rank == 0);
   const coupling::Stability stability = coupling::stability(floating, start.state);
@@ -547,6 +585,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_meshes(floating, start);
     const PartCost cost = print_particles(floating, start);
     print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
+    print_omissions(arguments);
     return done;
   }
   if (floating.rotor()) {
@@ -577,7 +616,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_cost_of_steps(floating.timeline(), base, steps_s);
   else
     print_cost(parts, floating.scenario().time.end_s, world.size, {base.bytes, base.core_seconds + steps_s});
-  if (!arguments.columns.empty()) print_omissions(arguments, asked);
+  print_omissions(arguments);
   return done;
 }
 

@@ -212,12 +212,17 @@ void add_commands(CLI::App& cli, Command& chosen) {
         ->add_option("--columns", arguments->columns,
                      "Columns of history.csv: also try what could be left out, by its effect on them")
         ->delimiter(',');
+    command
+        ->add_option("--trial-s", arguments->trial_s,
+                     "With --columns: processor time that all runs it tries may take [s] (default: 120)")
+        ->check(CLI::Range(1.0, 1e9));
     command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
     command->footer(
         "Examples:\n"
         "  spindrift check inputs/leble_barakos/case1_engineering.toml\n"
         "  spindrift check scene.toml --set time.step_s=0.02\n"
-        "  spindrift check scene.toml --columns platform.pitch_deg,rotor.thrust_N");
+        "  spindrift check scene.toml --columns platform.pitch_deg,rotor.thrust_N\n"
+        "  spindrift check inputs/validation/floating_box/floating_box.toml --columns box.z_m --trial-s 600");
     command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return check(*arguments, world); }; });
   }
   {

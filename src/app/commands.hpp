@@ -46,6 +46,7 @@ struct RunArguments : SceneArguments {
 
 struct CheckArguments : SceneArguments {
   std::vector<std::string> columns;  ///< of history.csv: what could be left out, by its effect on these
+  double trial_s = 0.0;              ///< processor time of all runs that find out [s]; 0: as usual
   bool calibrate = false;            ///< rates of the air measured by a short march instead of stated
 };
 

@@ -7,166 +7,63 @@
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <stdexcept>
 
+#include "kernels/base/failure.hpp"
 #include "runtime/mpi/parts.hpp"
 #include "runtime/trace/clock.hpp"
-#include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/app/aside.hpp"
 #include "src/app/forecast.hpp"
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
-#include "src/coupling/flow_scene.hpp"
+#include "src/app/smaller_choices.hpp"
+#include "src/coupling/memory_limits.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/console.hpp"
 #include "src/io/history.hpp"
 #include "src/io/run_directory.hpp"
+#include "src/run/flow_simulation.hpp"
 #include "src/run/outputs.hpp"
 #include "src/run/system_simulation.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/text_check.hpp"
-#include "src/sea/wave_model.hpp"
 
 namespace spindrift::app {
 
 namespace {
 
 using coupling::Scenario;
-using Overrides = std::vector<std::string>;
-
-/// A smaller choice: the overrides that make it, none where the scene leaves nothing to choose. `own` is what the document says.
-struct Choice {
-  const char* name;
-  std::function<Overrides(const Scenario& own, const scene::Document& document)> overrides;
-};
-
-/// Those of these keys that the scene gives, as one override that takes them away; nothing where it gives none.
-Overrides without(const scene::Document& document, const std::vector<std::string>& keys) {
-  std::string list;
-  for (const std::string& key : keys)
-    if (document.given(key)) list += fmt::format("{}\"{}\"", list.empty() ? "" : ",", key);
-  if (list.empty()) return {};
-  return {"without=[" + list + "]"};
-}
-
-/// Keys of a wake of filaments.
-const std::vector<std::string> of_wake{"aero.wake_turns", "aero.wake_step_deg", "aero.wake_core_chords"};
 
 Overrides operator+(Overrides a, const Overrides& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
-const std::vector<Choice>& choices() {
-  static const std::vector<Choice> all{
-      {"longer step",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         const std::int64_t steps = coupling::whole_ratio(s.time.window_s, s.time.step()).value_or(1);
-         const std::int64_t windows = coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1);
-         if (steps > 1) return {fmt::format("time.step_s={}", s.time.window_s / double((steps + 1) / 2))};
-         const double window = 2.0 * s.time.window_s;
-         return {fmt::format("time.window_s={}", window), fmt::format("time.step_s={}", window),
-                 fmt::format("time.end_s={}", window * double((windows + 1) / 2))};
-       }},
-      {"rows half as often",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         return {fmt::format("output.history_every={}", 2 * s.output.history_every)};
-       }},
-      {"still water",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         return s.has_waves() ? without(document, {"waves"}) : Overrides{};
-       }},
-      {"strips twice as long",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         if (s.sea.model != "morison") return {};
-         return {fmt::format("sea.strip_length_m={}", 2.0 * s.sea.strip_length_m)};
-       }},
-      {"buoyancy without strips",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         if (s.sea.model != "morison") return {};
-         return without(document, {"waves", "sea.drag_coefficient", "sea.added_mass_coefficient", "sea.axial_drag_coefficient",
-                                   "sea.axial_added_mass_coefficient", "sea.strip_length_m", "sea.current_m_s",
-                                   "sea.current_profile", "sea.coefficients"}) +
-                Overrides{"sea.model=hydrostatic"};
-       }},
-      {"no memory of waves made",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         if (!s.sea.potential || s.sea.potential->radiation == "none") return {};
-         return without(document, {"sea.potential.memory_s", "sea.potential.fit_tolerance"}) +
-                Overrides{"sea.potential.radiation=none"};
-       }},
-      {"no slow drift",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         if (!s.sea.potential || s.sea.potential->drift == "none") return {};
-         return without(document, {"sea.potential.drift_file"}) + Overrides{"sea.potential.drift=none"};
-       }},
-      {"first-order waves",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         if (s.has_waves() && s.waves.second_order) return {"waves.second_order=false"};
-         if (!s.has_waves() || !sea::wave_models().named(s.waves.model).nonlinear) return {};
-         return {"waves.model=airy"};
-       }},
-      {"half the wave components",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         if (!s.has_waves() || sea::wave_models().named(s.waves.model).regular || s.waves.components < 20 ||
-             !s.waves.file.empty())
-           return {};
-         return {fmt::format("waves.components={}", s.waves.components / 2)};
-       }},
-      {"filters for a wake of filaments",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         if (s.aero.dynamic_inflow != "free_vortex") return {};
-         return without(document, of_wake) + Overrides{"aero.dynamic_inflow=oye"};
-       }},
-      {"thrust curve for blades",
-       [](const Scenario& s, const scene::Document& document) -> Overrides {
-         if (s.aero.model != "bem" || s.rotor.operation.empty()) return {};
-         std::vector<std::string> of_blades{"aero.induction",     "aero.dynamic_inflow",     "aero.inflow_time_s",
-                                            "aero.dynamic_stall", "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s"};
-         of_blades.insert(of_blades.end(), of_wake.begin(), of_wake.end());
-         Overrides curve{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation)};
-         for (const Scenario& one : coupling::by_rotor(s)) {
-           if (one.rotor.operation != s.rotor.operation) return {};  // one curve is for all rotors
-           of_blades.push_back(one.rotor_section + ".blade_structure");
-           curve.push_back(fmt::format("{}.diameter_m={}", one.rotor_section,
-                                       2.0 * aero::read_turbine(one.rotor.turbine).planform.span.back()));
-         }
-         return without(document, of_blades) + curve;
-       }},
-      {"no gyroscopic moments",
-       [](const Scenario& s, const scene::Document&) -> Overrides {
-         Overrides all_bodies;
-         for (const auto& body : s.bodies)
-           if (body.options.gyroscopic) all_bodies.push_back(fmt::format("bodies.{}.gyroscopic=false", body.name));
-         return all_bodies;
-       }},
-  };
-  return all;
+void require_columns(const std::vector<std::string>& known, const std::vector<std::string>& columns) {
+  for (const std::string& column : columns)
+    if (std::find(known.begin(), known.end(), column) == known.end()) {
+      const std::string near = scene::nearest(column, known);
+      throw scene::SceneError({{"--columns", 0, "", column,
+                                "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
+    }
 }
 
 /// The run of a scene, in pieces.
 class Tried {
  public:
-  Tried(const std::string& path, const Overrides& overrides, const std::filesystem::path& folder)
-      : ready_(read_scene(path, overrides)),
-        parts_(runtime::World{MPI_COMM_SELF, 0, 1}),
-        directory_(MPI_COMM_SELF, folder, io::Existing::overwrite),
-        simulation_(*ready_.floating, ready_.start.state, parts_, 0),
-        rows_(simulation_, history_) {
-    simulation_.declare(history_);
-    window_ = simulation_.begin(directory_);
-    history_.open(directory_.history());
-    rows_.begin(window_);
-  }
+  Tried(const std::string& path, const Overrides& overrides, const std::filesystem::path& folder);
   /// As far as this time; the processor time of its windows and rows [s]. Throws where the numerics fail.
   double advance_to(double time_s);
-  const io::History& history() const { return history_; }
+  /// Processor time from reading the scene to t = 0 [s].
+  double start_s() const { return start_s_; }
+  std::vector<std::string> names() const;
   /// Rows so far.
   scene::Columns columns() {
     history_.flush();
@@ -174,39 +71,63 @@ class Tried {
   }
 
  private:
-  ReadyScene ready_;
+  std::optional<Scenario> air_;      ///< of a flow alone
+  std::optional<ReadyScene> ready_;  ///< of all others
   runtime::Parts parts_;
   io::RunDirectory directory_;
-  run::SystemSimulation simulation_;
+  std::unique_ptr<run::Simulation> simulation_;
   io::History history_;
-  run::HistoryOutput rows_;
+  std::optional<run::HistoryOutput> rows_;
   std::int64_t window_ = 0;
+  bool settled_ = false;
+  double start_s_ = 0.0;
 };
 
+Tried::Tried(const std::string& path, const Overrides& overrides, const std::filesystem::path& folder)
+    : parts_(runtime::World{MPI_COMM_SELF, 0, 1}), directory_(MPI_COMM_SELF, folder, io::Existing::overwrite) {
+  constexpr int at_once = 4;  // pseudo-steps: so that pieces of runs that take turns are alike
+  const double before = processor_seconds();
+  scene::Document document = load_scene(path, overrides);
+  Scenario scenario = coupling::read_scenario(document);
+  if (scenario.has_flow()) {
+    air_ = std::move(scenario);
+    simulation_ = std::make_unique<run::FlowSimulation>(*air_, directory_, parts_.world(), 0, at_once);
+  } else {
+    ready_ = read_scene(path, overrides);
+    simulation_ = std::make_unique<run::SystemSimulation>(*ready_->floating, ready_->start.state, parts_, 0);
+  }
+  rows_.emplace(*simulation_, history_);
+  simulation_->declare(history_);
+  window_ = simulation_->begin(directory_);
+  history_.open(directory_.history());
+  rows_->begin(window_);
+  advance_to(0.0);  // bodies held, while the sea settles
+  start_s_ = processor_seconds() - before;
+}
+
 double Tried::advance_to(double time_s) {
-  const coupling::Timeline& timeline = simulation_.timeline();
+  const coupling::Timeline& timeline = simulation_->timeline();
   const std::int64_t last = timeline.windows(),
                      to = std::min(last, std::int64_t(std::ceil(time_s / timeline.window_s() * (1.0 - 1e-12))));
+  if (settled_ || window_ >= to) return 0.0;
   const double before = processor_seconds();
-  while (window_ < to) {
-    const run::Advance advance = simulation_.advance(window_, last);
-    if (!advance.failure.empty()) throw std::runtime_error(advance.failure);
+  while (!settled_ && window_ < to) {
+    const run::Advance advance = simulation_->advance(window_, last);
+    std::string failure = advance.failure;
+    settled_ = !advance.settled.empty();
+    if (failure.empty() && !settled_ && window_ + advance.windows >= last) failure = simulation_->failure_at_end();
+    if (!failure.empty()) throw NumericalFailure(failure, "", 0, timeline.window_end_s(window_));
     const run::Windows done{window_, window_ + advance.windows, last};
     window_ = done.now;
-    if (rows_.due(done)) rows_.take(done);
+    if (rows_->due(done)) rows_->take(done);
   }
   return processor_seconds() - before;
 }
 
-void require_columns(const io::History& history, const std::vector<std::string>& columns) {
-  std::vector<std::string> known;
-  for (const io::Column& column : history.columns()) known.push_back(column.name);
-  for (const std::string& column : columns)
-    if (std::find(known.begin(), known.end(), column) == known.end()) {
-      const std::string near = scene::nearest(column, known);
-      throw scene::SceneError({{"--columns", 0, "", column,
-                                "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
-    }
+std::vector<std::string> Tried::names() const {
+  std::vector<std::string> names;
+  for (const io::Column& column : history_.columns()) names.push_back(column.name);
+  return names;
 }
 
 struct Moments {
@@ -230,7 +151,13 @@ Moments moments(std::span<const double> t, std::span<const double> x, double fro
 constexpr double start_share = 1.0 / 3.0;
 
 Moments settled(std::span<const double> t, std::span<const double> x) {
-  return moments(t, x, t.front() + start_share * (t.back() - t.front()), t.back());
+  const double begin = std::max(0.0, t.front());  // bodies are held before
+  return moments(t, x, begin + start_share * (t.back() - begin), t.back());
+}
+
+/// Of a march to a steady state: its pseudo-steps are no time to take means over.
+Effect effect_on_end(const scene::Columns& own, const scene::Columns& less, const std::string& column) {
+  return {.mean = less[column].back() - own[column].back(), .deviation = 0.0};
 }
 
 /// What the smaller choice changes. Of a trial that is cut short only what holds in each of its parts: a change that is not twice
@@ -259,15 +186,24 @@ Effect effect_of(const scene::Columns& own, const scene::Columns& less, const st
   return effect;
 }
 
-/// Of the pieces of two runs made in turns. What others on the computer do makes some of them longer; of runs made again the
-/// shortest counts. The error is that of a ratio of sums over pieces.
-Saving saving_of(const std::vector<double>& own, const std::vector<double>& less) {
-  double a = 0.0, b = 0.0, squares = 0.0;
-  for (std::size_t n = 0; n < own.size(); ++n) a += own[n], b += less[n];
-  if (!(a > 0.0) || own.size() < 2) return {0.0, std::numeric_limits<double>::infinity()};
-  for (std::size_t n = 0; n < own.size(); ++n) squares += (less[n] - b / a * own[n]) * (less[n] - b / a * own[n]);
-  const double pieces = double(own.size());
-  return {1.0 - b / a, 2.0 * std::sqrt(squares * pieces / (pieces - 1.0)) / a};
+/// Processor time of a run: before its first window, where that counts, and by piece.
+struct Times {
+  double start = 0.0;
+  std::vector<double> pieces;
+  double sum() const { return std::accumulate(pieces.begin(), pieces.end(), start); }
+};
+
+/// Of two runs made in turns. What others on the computer do makes some pieces longer; of runs made again the shortest counts.
+/// The error is that of a ratio of sums over the pieces that both had: of two marches one may settle before the other.
+Saving saving_of(const Times& own, const Times& less) {
+  double a = 0.0, b = 0.0, squares = 0.0, pieces = 0.0;
+  const auto both = [&](std::size_t n) { return own.pieces[n] > 0.0 && less.pieces[n] > 0.0; };
+  for (std::size_t n = 0; n < own.pieces.size(); ++n)
+    if (both(n)) a += own.pieces[n], b += less.pieces[n], ++pieces;
+  if (pieces < 2.0) return {0.0, std::numeric_limits<double>::infinity()};
+  for (std::size_t n = 0; n < own.pieces.size(); ++n)
+    if (both(n)) squares += std::pow(less.pieces[n] - b / a * own.pieces[n], 2);
+  return {1.0 - less.sum() / own.sum(), 2.0 * std::sqrt(squares * pieces / (pieces - 1.0)) / own.sum()};
 }
 
 /// Mean and deviation of a load in the trial must be those of the run, or its response is another.
@@ -346,28 +282,34 @@ class Trials {
          const std::vector<Omission>& omissions, const std::filesystem::path& folder, const std::function<void(double)>& say)
       : refused(omissions.size()), less_(omissions.size()) {
     own_ = std::make_unique<Tried>(path, overrides, folder / "own");
-    require_columns(own_->history(), columns);  // before the others take their time
+    require_columns(own_->names(), columns);  // before the others take their time
     for (std::size_t n = 0; n < omissions.size(); ++n) {
       say(0.0);
       try {
         less_[n] = std::make_unique<Tried>(path, overrides + omissions[n].overrides, folder / std::to_string(n));
-      } catch (const std::exception& e) { refused[n] = e.what(); }
+        require_columns(less_[n]->names(), columns);
+      } catch (const std::exception& e) { refused[n] = e.what(), less_[n].reset(); }
     }
   }
-  /// Processor time by piece, of the scene and of each omission; empty of those that were refused.
-  struct Times {
-    std::vector<double> own;
-    std::vector<std::vector<double>> less;
+  /// Of the scene and of each omission; no pieces of those that were refused.
+  struct AllTimes {
+    Times own;
+    std::vector<Times> less;
   };
-  Times run(double length_s, int pieces, const std::function<void(double)>& say) {
-    Times times{.own = {}, .less = std::vector<std::vector<double>>(less_.size())};
+  AllTimes run(double length_s, int pieces, bool starts_count, const std::function<void(double)>& say) {
+    AllTimes times{.own = {}, .less = std::vector<Times>(less_.size())};
+    if (starts_count) {
+      times.own.start = own_->start_s();
+      for (std::size_t n = 0; n < less_.size(); ++n)
+        if (less_[n]) times.less[n].start = less_[n]->start_s();
+    }
     for (int piece = 1; piece <= pieces; ++piece) {
       const double to = piece == pieces ? length_s : length_s * piece / pieces;
-      times.own.push_back(own_->advance_to(to));
+      times.own.pieces.push_back(own_->advance_to(to));
       for (std::size_t n = 0; n < less_.size(); ++n) {
         if (!less_[n]) continue;
         try {
-          times.less[n].push_back(less_[n]->advance_to(to));
+          times.less[n].pieces.push_back(less_[n]->advance_to(to));
         } catch (const std::exception& e) { refused[n] = e.what(), less_[n].reset(); }
         say((piece - 1 + double(n + 1) / double(less_.size())) / pieces);
       }
@@ -383,42 +325,69 @@ class Trials {
   std::vector<std::unique_ptr<Tried>> less_;
 };
 
-void take_least(std::vector<double>& least, const std::vector<double>& again) {
-  for (std::size_t n = 0; n < std::min(least.size(), again.size()); ++n) least[n] = std::min(least[n], again[n]);
+void take_least(Times& least, const Times& again) {
+  least.start = std::min(least.start, again.start);
+  for (std::size_t n = 0; n < std::min(least.pieces.size(), again.pieces.size()); ++n)
+    least.pieces[n] = std::min(least.pieces[n], again.pieces[n]);
+}
+
+/// How long a trial of bodies and engineering loads is: whole, or as much as the budget carries.
+void set_length(Trial& trial, ReadyScene scene) {
+  const coupling::TimeOptions time = scene.floating->scenario().time;
+  trial.forecast_s = measured_steps(*scene.floating, scene.start).core_seconds() * double(1 + trial.omissions.size());
+  const double windows = std::ceil(time.end_s / time.window_s * std::min(1.0, trial.budget_s / trial.forecast_s));
+  trial.length_s = std::min(trial.end_s, std::max(3.0, windows) * time.window_s);
+  if (!trial.whole()) trial.unlike = unlike_the_run(scene, trial.length_s);
+}
+
+/// A trial of fluids is whole or none: what the beginning of a flow tells of the rest is not known.
+void set_length_of_fluids(Trial& trial, const Forecast& forecast, const std::vector<std::string>& columns) {
+  require_columns(forecast.columns, columns);
+  const double runs = double(1 + trial.omissions.size());
+  trial.forecast_s = forecast.core_seconds * runs;
+  if (forecast.bytes * runs > coupling::machine_memory())
+    trial.untried = fmt::format("{:.3g} GB for all of them at once", 1e-9 * forecast.bytes * runs);
+  else if (trial.forecast_s > trial.budget_s)
+    trial.untried = fmt::format("up to {:.3g} s of processor time, {:.3g} for the scene and each of {} smaller choices",
+                                trial.forecast_s, forecast.core_seconds, trial.omissions.size());
+  else
+    trial.length_s = trial.end_s;
 }
 
 }  // namespace
 
-Trial try_omissions(const std::string& path, const Overrides& overrides, const std::vector<std::string>& columns) {
+Trial try_omissions(const std::string& path, const Overrides& overrides, const std::vector<std::string>& columns,
+                    double budget_s) {
   const Aside aside;
   scene::Document document = load_scene(path, overrides);
-  const Scenario scenario = coupling::read_scenario(document);
-  Trial trial;
-  for (const Choice& choice : choices())
-    if (Overrides more = choice.overrides(scenario, document); !more.empty())
-      trial.omissions.push_back({.name = choice.name, .overrides = std::move(more), .effects = {}, .saving = {}, .refused = {}});
+  Scenario scenario = coupling::read_scenario(document);
+  const bool fluids = scenario.has_particles() || scenario.resolves_air();
+  std::optional<ReadyScene> ready;
+  if (!scenario.has_flow()) ready = read_scene(path, overrides);
+  if (scenario.has_particles()) scenario.sea.particles->sound_speed_m_s = ready->floating->particle_plan()->parameters.eos.c0;
+  Trial trial{.end_s = scenario.time.end_s, .budget_s = budget_s};
+  trial.steady = scenario.has_flow() && scenario.aero.flow->time == "steady";
+  for (SmallerChoice& choice : smaller_choices(scenario, document))
+    trial.omissions.push_back(
+        {.name = std::move(choice.name), .overrides = std::move(choice.overrides), .effects = {}, .saving = {}, .refused = {}});
+  if (fluids) {
+    set_length_of_fluids(trial, ready ? forecast(*ready->floating, ready->start) : forecast_of_air(scenario), columns);
+    if (!trial.untried.empty()) return trial;
+  }
 
   // A trial of seconds is made again: its pieces are too short to be timed once.
   constexpr double repeat_below_s = 4.0;
   constexpr int most_rounds = 5;
   Waiting waiting;
-  Trials::Times least;
+  Trials::AllTimes least;
   double used_s = 0.0;
   for (int round = 1; round == 1 || (round <= most_rounds && used_s < repeat_below_s); ++round) {
     const auto say = [&](double share) { waiting.say(round, share); };
     Trials trials(path, overrides, columns, trial.omissions, aside.folder, say);
-    if (round == 1) {
-      ReadyScene scene = read_scene(path, overrides);
-      const double run_s = measured_steps(*scene.floating, scene.start).core_seconds();
-      const double all_s = run_s * double(1 + trial.omissions.size());
-      const double windows = std::ceil(scenario.time.end_s / scenario.time.window_s * std::min(1.0, trial_budget_s / all_s));
-      trial.end_s = scenario.time.end_s;
-      trial.length_s = std::min(trial.end_s, std::max(3.0, windows) * scenario.time.window_s);
-      if (!trial.whole()) trial.unlike = unlike_the_run(scene, trial.length_s);
-    }
+    if (round == 1 && !fluids) set_length(trial, std::move(*ready));
     constexpr int pieces = 50;
     const double before = processor_seconds();
-    const Trials::Times times = trials.run(trial.length_s, pieces, say);
+    const Trials::AllTimes times = trials.run(trial.length_s, pieces, fluids, say);
     used_s += processor_seconds() - before;
     if (round > 1) {
       take_least(least.own, times.own);
@@ -428,7 +397,7 @@ Trial try_omissions(const std::string& path, const Overrides& overrides, const s
     least = times;
     const scene::Columns own = trials.own().columns();
     for (const std::string& column : columns) {
-      const Moments m = settled(own["time_s"], own[column]);
+      const Moments m = trial.steady ? Moments{own[column].back(), 0.0} : settled(own["time_s"], own[column]);
       trial.own.push_back({m.mean, m.deviation});
     }
     for (std::size_t n = 0; n < trial.omissions.size(); ++n) {
@@ -436,8 +405,12 @@ Trial try_omissions(const std::string& path, const Overrides& overrides, const s
       omission.refused = trials.refused[n];
       if (!omission.refused.empty()) continue;
       const scene::Columns less = trials.less(n).columns();
-      for (const std::string& column : columns)
-        omission.effects.push_back(trial.unlike.empty() ? effect_of(own, less, column, trial.whole()) : Effect{});
+      for (const std::string& column : columns) {
+        if (trial.steady)
+          omission.effects.push_back(effect_on_end(own, less, column));
+        else
+          omission.effects.push_back(trial.unlike.empty() ? effect_of(own, less, column, trial.whole()) : Effect{});
+      }
     }
   }
   for (std::size_t n = 0; n < trial.omissions.size(); ++n)

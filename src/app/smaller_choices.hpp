@@ -1,0 +1,24 @@
+// What a scene could do with less of, as overrides of its keys: coarser, shorter, looser, or another model. Each scene is offered
+// the choices of what costs it most: particles, resolved air, else bodies and engineering loads. Called by leave_out.cpp; tested
+// in tests/coupled/leave_out_test.py. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/coupling/scenario.hpp"
+#include "src/scene/document.hpp"
+
+namespace spindrift::app {
+
+using Overrides = std::vector<std::string>;
+
+struct SmallerChoice {
+  std::string name;     ///< "longer step"
+  Overrides overrides;  ///< what makes it: "time.step_s=0.1"
+};
+
+/// `scenario`: what the document says; of particles with their speed of sound, where the document leaves it to the program.
+std::vector<SmallerChoice> smaller_choices(const coupling::Scenario& scenario, const scene::Document& document);
+
+}  // namespace spindrift::app
