@@ -58,11 +58,18 @@ std::vector<double> widths(const BladeElementMomentum& sections, const ActuatorO
 
 double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
                      MPI_Comm comm) {
-  return largest_of_cells(store, comm, [&](const TileGeometry& g, int k, int j, int i, const Eigen::Vector3d& centre) {
-    const Eigen::Vector3d arm = centre - hub;
-    const double along = arm.dot(axis), size = std::cbrt(g.volume_data.data()[g.cell_box.at(k, j, i)]);
-    return std::abs(along) <= std::max(blade_depth * radius, 0.5 * size) && (arm - along * axis).norm() <= radius ? size : 0.0;
+  const auto largest = [&](auto&& within) {
+    return largest_of_cells(store, comm, [&](const TileGeometry& g, int k, int j, int i, const Eigen::Vector3d& centre) {
+      const double size = std::cbrt(g.volume_data.data()[g.cell_box.at(k, j, i)]);
+      return within(Eigen::Vector3d(centre - hub), size) ? size : 0.0;
+    });
+  };
+  const double at_disc = largest([&](const Eigen::Vector3d& arm, double size) {
+    const double along = arm.dot(axis);
+    return std::abs(along) <= std::max(blade_depth * radius, 0.5 * size) && (arm - along * axis).norm() <= radius;
   });
+  // Cells larger than the rotor may have no centre at it: those round the hub.
+  return at_disc > 0.0 ? at_disc : largest([](const Eigen::Vector3d& arm, double size) { return arm.norm() <= size; });
 }
 
 double actuator_bytes(const AeroOptions& aero, const RotorOptions& rotor, const MultiBlockGrid& grid) {

@@ -20,8 +20,8 @@
 
 namespace spindrift::aero {
 
-/// Longest cell, by the cube root of its volume, among those at the disc of this hub, axis and radius [m]; zero where there are
-/// none. Collective.
+/// Longest cell, by the cube root of its volume, among those at the disc of this hub, axis and radius, or round the hub where the
+/// cells are larger than the disc [m]; zero where there are none. Collective.
 double cell_at_rotor(const GridStore& store, const Eigen::Vector3d& hub, const Eigen::Vector3d& axis, double radius,
                      MPI_Comm comm);
 
