@@ -275,6 +275,9 @@ bool is_rule(const Deck& file, std::size_t line) {
   return words.empty() || words[0].find("---") != std::string::npos || words[0].find("===") != std::string::npos;
 }
 
+/// Words of a row of points: those of its heading, name, kind and place at least.
+std::size_t words_of_point(const Deck& file, std::size_t heading) { return std::max<std::size_t>(5, file.words(heading).size()); }
+
 /// Rows of a table until the next rule.
 template <class Row>
 void each_row(const Deck& file, std::size_t heading, const Row& row) {
@@ -377,7 +380,7 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
   const std::string file_name = file.file().filename().string();
   std::map<std::string, LinePoint> by_number;
   each_row(file, nodes, [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, file.words(nodes).size());
+    file.rows(n, 1, words_of_point(file, nodes));
     // "#" marks what MAP++ looks for; a free node's place behind it is where the search begins.
     const auto value = [&](std::size_t column) {
       std::string word = w.size() > column ? w[column] : "0";
@@ -478,7 +481,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   std::map<std::string, LinePoint> points;
   const std::size_t table = section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"});
   each_row(file, table, [&](std::size_t n, const auto& w) {
-    file.rows(n, 1, file.words(table).size());
+    file.rows(n, 1, words_of_point(file, table));
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
     LinePoint point{in_lower_case(w[1]), free_point(w[0], {at(2), at(3), std::max(at(4), -depth)})};
     for (std::size_t unused = 5; unused < w.size(); ++unused) at(unused);

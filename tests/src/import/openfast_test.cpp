@@ -850,6 +850,7 @@ const std::vector<Fault> moordyn_faults = {
     {"0 1 1 0 0\n", "0 1 1 0 0\nchain 0.1 100 4e8 -1 0 1 1 0 0\n", ":5"},
     {"Attachment X Y Z M V CdA CA", "Attachment X Y Z M V CA", ":6"},
     {"1 Fixed 500", "1 Fixed far", ":8"},
+    {" X Y Z M V CdA CA\n(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n1 Fixed 500 0 -200 0 0 0 0", "\n(#) (-)\n1 Fixed", ":8"},
     {"2 Vessel 4 0 -30", "2 Vessel 4 0", ":9"},
     {"2 Vessel", "1 Vessel", ":9"},
     {"-60 1000 0.5", "-60 -1000 0.5", ":10"},
@@ -888,6 +889,8 @@ const std::vector<Fault> map_faults = {
     {"1 chain 490 1 3", "1 chain 490 3 3", ":14"},
     {"1 chain 490 1 3", "1 chain 0 1 3", ":14"},
     {"1 chain 490 1 3", "1 chain 1e999 1 3", ":14"},
+    {"Node Type X Y Z M B FX FY FZ\n(-) (-) (m) (m) (m) (kg) (mB) (N) (N) (N)\n1 fix 500 0 depth 0 0 # # #", "Node\n(-)\n1",
+     ":8"},
     {"2 chain 56 3 2", "2 chain 56", ":15"},
     {"repeat 120 240", "repeat 120 twice", ":19"},
 };
