@@ -38,6 +38,13 @@ struct ElementState {
   double tangential = 0.0;                                   ///< coefficient of force along the motion
   double axial_induction = 0.0, tangential_induction = 0.0;  ///< a, a'
   bool balanced = false;  ///< false: no inflow angle satisfies the momentum balance and there is no induction
+
+  /// Of a blade that hardly moves, or in air that hardly does, the inductions over that motion are huge or no number: speed and
+  /// inflow tell what it meets.
+  bool has_inductions() const {
+    constexpr double many = 1e6;
+    return std::abs(axial_induction) < many && std::abs(tangential_induction) < many;
+  }
 };
 
 /// Prandtl's factor for tip and hub together, at least 1e-6.
@@ -152,10 +159,8 @@ ElementState skewed(const Annulus& s, const ElementState& level, double normal_w
   if (!level.balanced || a <= 0.0 || a >= 1.0) return level;  // the model is for windmills
   const double wake = std::min((0.6 * a + 1.0) * skew, 0.45 * pi);
   const double local = a * (1.0 + 15.0 * pi / 64.0 * std::tan(0.5 * wake) * across);
-  // Of a blade that hardly moves the induction over its own motion is huge, or no number.
-  constexpr double many = 1e6;
-  const double tangential = std::abs(level.tangential_induction) < many ? tangential_wind * (1.0 + level.tangential_induction)
-                                                                        : level.speed * std::cos(level.inflow);
+  const double tangential =
+      level.has_inductions() ? tangential_wind * (1.0 + level.tangential_induction) : level.speed * std::cos(level.inflow);
   ElementState out = element_forces(s, normal_wind * (1.0 - local), tangential, polar);
   out.axial_induction = local, out.tangential_induction = level.tangential_induction, out.balanced = true;
   return out;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double near_turns = 0.25;  // with all filaments
 constexpr double least_wind = 1.0;   // m/s; without wind and at rest a step of the wake would have no end
-constexpr double most_speed_ratio =
-    25.0;  // of tips and wind: turns of a wake that begins are then an eighth of the diameter apart
+// Of tips and wind: turns of a wake that begins are then an eighth of the diameter apart.
+constexpr double most_speed_ratio = 25.0;
 
 /// Of a row of rings, the circulation that is farthest from zero.
 double strongest(std::span<const double> row) {

@@ -136,9 +136,7 @@ ElementState BladeElementMomentum::balance(const Place& at) const {
 
 BladeElementMomentum::Induced BladeElementMomentum::steady(const Place& at) const {
   const ElementState s = balance(at);
-  // What a blade drives through air that is nearly at rest is many times the wind: a product of no number, or of no digits, then.
-  constexpr double many = 1e6;
-  if (!(std::abs(s.axial_induction) < many && std::abs(s.tangential_induction) < many))
+  if (!s.has_inductions())
     return {s.speed * std::sin(s.inflow) - at.normal_wind, s.speed * std::cos(s.inflow) - at.tangential_wind};
   return {-s.axial_induction * at.normal_wind, s.tangential_induction * at.tangential_wind};
 }

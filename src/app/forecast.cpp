@@ -267,7 +267,7 @@ PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
   const aero::FlowOptions& flow = *s.aero.flow;
   const double windows = s.time.end_s / s.time.window_s;
   if (flow.time == "steady") {
-    const bool by_loads = has_resolved_rotor(s) && flow.load_change.value_or(flow.drop) > 0.0;
+    const bool by_loads = has_resolved_rotor(s) && coupling::resolved_rotor_setup(s).flow.load_change.value_or(0.0) > 0.0;
     if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
     const double usual = by_loads           ? steps_of_rotor
                          : s.has_actuator() ? steady_steps_per_order_of_disc * orders(flow.drop)

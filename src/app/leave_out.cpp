@@ -41,11 +41,6 @@ namespace {
 
 using coupling::Scenario;
 
-Overrides operator+(Overrides a, const Overrides& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 void require_columns(const std::vector<std::string>& known, const std::vector<std::string>& columns) {
   for (const std::string& column : columns)
     if (std::find(known.begin(), known.end(), column) == known.end()) {

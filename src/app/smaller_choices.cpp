@@ -16,6 +16,11 @@
 
 namespace spindrift::app {
 
+Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 namespace {
 
 using coupling::Scenario;
@@ -38,9 +43,12 @@ Overrides without(const scene::Document& document, const std::vector<std::string
 /// Keys of a wake of filaments.
 const std::vector<std::string> of_wake{"aero.wake_turns", "aero.wake_step_deg", "aero.wake_core_chords"};
 
-Overrides operator+(Overrides a, const Overrides& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+std::int64_t windows_of(const Scenario& s) { return coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1); }
+
+/// Windows twice as long; the run ends with one of them.
+Overrides longer_windows(const Scenario& s) {
+  const double window = 2.0 * s.time.window_s;
+  return {fmt::format("time.window_s={}", window), fmt::format("time.end_s={}", window * double((windows_of(s) + 1) / 2))};
 }
 
 const std::vector<Choice>& of_engineering() {
@@ -48,11 +56,8 @@ const std::vector<Choice>& of_engineering() {
       {"longer step",
        [](const Scenario& s, const scene::Document&) -> Overrides {
          const std::int64_t steps = coupling::whole_ratio(s.time.window_s, s.time.step()).value_or(1);
-         const std::int64_t windows = coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1);
          if (steps > 1) return {fmt::format("time.step_s={}", s.time.window_s / double((steps + 1) / 2))};
-         const double window = 2.0 * s.time.window_s;
-         return {fmt::format("time.window_s={}", window), fmt::format("time.step_s={}", window),
-                 fmt::format("time.end_s={}", window * double((windows + 1) / 2))};
+         return longer_windows(s) + Overrides{fmt::format("time.step_s={}", 2.0 * s.time.window_s)};
        }},
       {"rows half as often",
        [](const Scenario& s, const scene::Document&) -> Overrides {
@@ -128,14 +133,6 @@ const std::vector<Choice>& of_engineering() {
        }},
   };
   return all;
-}
-
-std::int64_t windows_of(const Scenario& s) { return coupling::whole_ratio(s.time.end_s, s.time.window_s).value_or(1); }
-
-/// Windows twice as long; the run ends with one of them.
-Overrides longer_windows(const Scenario& s) {
-  const double window = 2.0 * s.time.window_s;
-  return {fmt::format("time.window_s={}", window), fmt::format("time.end_s={}", window * double((windows_of(s) + 1) / 2))};
 }
 
 constexpr double coarser = 1.25;
@@ -261,7 +258,7 @@ const std::vector<Choice>& of_air() {
       {"a looser end of each march",
        [](const Scenario& s, const scene::Document&) -> Overrides {
          constexpr double looser = 10.0, loosest = 0.1;
-         const aero::FlowOptions& flow = *s.aero.flow;
+         const aero::FlowOptions flow = has_resolved_rotor(s) ? coupling::resolved_rotor_setup(s).flow : *s.aero.flow;
          const bool steady = flow.time == "steady";
          if (flow.drop <= 0.0) {  // all pseudo-steps are made
            if (steady)
@@ -271,8 +268,7 @@ const std::vector<Choice>& of_air() {
            if (flow.max_pseudo_steps < 2) return {};
            return {fmt::format("aero.flow.max_pseudo_steps={}", (flow.max_pseudo_steps + 1) / 2)};
          }
-         constexpr double of_rotor = 1e-3;  // where the scene does not say
-         const double change = flow.load_change.value_or(steady && has_resolved_rotor(s) ? of_rotor : 0.0);
+         const double change = flow.load_change.value_or(0.0);
          if (steady && change > 0.0) return {fmt::format("aero.flow.load_change={:.6g}", std::min(loosest, looser * change))};
          if (flow.drop >= loosest) return {};
          return {fmt::format("aero.flow.drop={:.6g}", std::min(loosest, looser * flow.drop))};

@@ -12,6 +12,7 @@
 namespace spindrift::app {
 
 using Overrides = std::vector<std::string>;
+Overrides operator+(Overrides a, const Overrides& b);
 
 struct SmallerChoice {
   std::string name;     ///< "longer step"

@@ -312,12 +312,13 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (wavy && s.time.end_s < s.waves.period_s)
     doubts.push_back({"time.end_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.end_s, s.waves.period_s),
                       "one period at least", "the run ends before the first wave has passed"});
-  const double growth = s.waves.ramp_s.value_or(0.0), asked_growth = growth == sea::growth_time(s.waves) ? 0.0 : growth;
-  if (wavy && s.time.end_s >= s.waves.period_s && asked_growth == 0.0 && growth > s.time.end_s)
+  const double growth = s.waves.ramp_s.value_or(0.0);
+  const bool as_usual = growth == sea::growth_time(s.waves);  // nobody asked for it
+  if (wavy && as_usual && s.time.end_s >= s.waves.period_s && growth > s.time.end_s)
     doubts.push_back({"time.end_s", fmt::format("{:.4g} s under waves that grow over {:.4g} s", s.time.end_s, growth),
                       "longer than that, or waves.ramp_s = 0", "the run ends before the waves have their height"});
   for (const auto& [key, value] :
-       {std::pair{"waves.ramp_s", wavy ? asked_growth : 0.0}, std::pair{"start.ramp_s", s.start.ramp_s},
+       {std::pair{"waves.ramp_s", wavy && !as_usual ? growth : 0.0}, std::pair{"start.ramp_s", s.start.ramp_s},
         std::pair{"sea.wavemaker.ramp_s", s.sea.wavemaker ? s.sea.wavemaker->ramp_s.value_or(0.0) : 0.0}})
     if (value > s.time.end_s)
       doubts.push_back({key, fmt::format("{:.4g} s in a run of {:.4g} s", value, s.time.end_s), "shorter than the run",

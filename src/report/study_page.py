@@ -202,10 +202,10 @@ def has_values(study, metric):
     return any(rung["errors"][metric["name"]]["value"] is not None for rung in study["rungs"])
 
 
-def _parts(cost):
-    """What the processor time goes into, from a twentieth of it on."""
+def _cost_text(cost):
+    """Processor time, and below it what it goes into, from a twentieth of it on."""
     large = sorted(((core_s / cost["core_s"], name) for name, core_s in cost.get("parts", {}).items()), reverse=True)
-    return ", ".join(f"{page.escape(name)} {100.0 * share:.0f} %" for share, name in large if share >= 0.05)
+    return page.number(cost["core_s"], 3) + "".join(f"<br><small>{page.escape(name)} {100.0 * share:.0f} %</small>" for share, name in large if share >= 0.05)
 
 
 def _table(study):
@@ -213,7 +213,6 @@ def _table(study):
     valued = {m["name"]: has_values(study, m) for m in study["metrics"]}
     head = "".join(f"<th>error of {page.escape(m['name'])}</th>" * judged + f"<th>{page.escape(m['name'])}</th>" * valued[m["name"]] for m in study["metrics"])
     sure = any(r["confidence"] is not None for r in study["rungs"])
-    split = any(_parts(r["cost"]) for r in study["rungs"])
     rows = ""
     for number, rung in enumerate(study["rungs"], 1):
         errors = "".join(f"<td>{_error_text(rung['errors'][m['name']], m)}</td>" * judged +
@@ -226,10 +225,9 @@ def _table(study):
         confidence = (f"<td>{'-' if rung['confidence'] is None or rung['is_reference'] else page.number(100 * rung['confidence'], 3) + ' %'}</td>"
                       if sure else "")
         memory = page.number(cost["memory"] / 1e6, 3) if cost["memory"] == cost["memory"] else "-"
-        rows += (f"<tr><td>{number}</td><td class=text>{page.escape(rung['name'])}</td><td>{page.number(cost['core_s'], 3)}</td>"
-                 f"{f'<td class=text>{_parts(cost)}</td>' if split else ''}<td>{memory}</td>"
+        rows += (f"<tr><td>{number}</td><td class=text>{page.escape(rung['name'])}</td><td>{_cost_text(cost)}</td><td>{memory}</td>"
                  f"{errors}{confidence}<td class=text>{', '.join(notes)}</td></tr>")
-    return (f'<div class="scroll"><table><thead><tr><th></th><th class=text>configuration</th><th>core-s</th>{"<th class=text>of it</th>" if split else ""}<th>MB</th>{head}'
+    return (f'<div class="scroll"><table><thead><tr><th></th><th class=text>configuration</th><th>core-s</th><th>MB</th>{head}'
             f"{'<th>confidence</th>' if sure else ''}<th></th></tr></thead><tbody>{rows}</tbody></table></div>")
 
 

@@ -203,8 +203,7 @@ const Section<WavemakerOptions>& wavemaker_section() {
                   "Kind of paddle.")
           .number("ramp_s", &WavemakerOptions::ramp_s, "s",
                   "Time over which the paddle's motion grows smoothly from nothing; where not given, two periods, and 0 with the "
-                  "waves of "
-                  "a file or where the water starts in waves.",
+                  "waves of a file or where the water starts in waves.",
                   not_negative())
           .number("start_s", &WavemakerOptions::start_s, "s",
                   "When the paddle starts; negative: while the bodies are still held.", between(-1e6, 1e6))

@@ -56,26 +56,38 @@ waves::RadiationPoles fit_poles(const std::vector<double>& series, double step, 
   throw scene::SceneError({{file, 0, key, value, message}});
 }
 
-/// Added mass at infinite frequency and damping of a mode by itself are energy and its loss: neither is below zero, round-off
-/// aside.
+/// Added mass at infinite frequency and damping of a mode by itself are energy and its loss: neither is below zero, round-off and
+/// irregular frequencies aside. Of modes that have next to none beside the others of their kind (yaw of what is round) the files
+/// have noise.
 void require_passive(const PotentialOptions& o, const WamitRadiation& radiation, const Matrix6& infinite) {
-  constexpr double round_off = 0.5;  // irregular frequencies too
+  constexpr double much = 0.5, noise = 1e-4;
+  const auto largest = [](const std::vector<Matrix6>& all, int i) {
+    double most = 0.0;
+    for (const Matrix6& m : all) most = std::max(most, std::abs(m(i, i)));
+    return most;
+  };
+  // Of this mode, zero where it is noise.
+  const auto size = [&](const std::vector<Matrix6>& all, int i) {
+    const int first = i < 3 ? 0 : 3;
+    const double own = largest(all, i),
+                 of_kind = std::max({largest(all, first), largest(all, first + 1), largest(all, first + 2)});
+    return own > noise * of_kind ? own : 0.0;
+  };
   for (int i = 0; i < 6; ++i) {
-    const std::string mode = "mode " + std::to_string(i + 1);
-    double largest = 0.0;
-    for (const Matrix6& b : radiation.damping) largest = std::max(largest, b(i, i));
-    for (std::size_t k = 0; k < radiation.omega.size(); ++k) {
-      const double b = radiation.damping[k](i, i), least = std::min(b, 0.0);
-      if (least < -round_off * std::max(largest, -least))
-        refuse(o.radiation_file, "", "",
-               "damping of " + mode + " is below zero at the period of " + std::to_string(2.0 * pi / radiation.omega[k]) +
-                   " s: such waves would drive the body; look at its sign, or leave out what irregular frequencies spoil");
-    }
-    if (infinite(i, i) < 0.0 && infinite(i, i) < -round_off * radiation.added_mass.front().diagonal().cwiseAbs().maxCoeff())
-      refuse(o.radiation_file, "", "",
-             "added mass of " + mode +
-                 " at infinite frequency is below zero: water at rest would give energy; look at its sign, "
-                 "or give the row of period 0");
+    const double damping = size(radiation.damping, i), mass = size(radiation.added_mass, i);
+    for (std::size_t k = 0; k < radiation.omega.size(); ++k)
+      if (damping > 0.0 && radiation.damping[k](i, i) < -much * damping)
+        refuse(
+            o.radiation_file, "", "",
+            fmt::format("damping of mode {} is below zero at the period of {:g} s: such waves would drive the body; look at its "
+                        "sign, or leave out what irregular frequencies spoil",
+                        i + 1, 2.0 * pi / radiation.omega[k]));
+    if (mass > 0.0 && infinite(i, i) < -much * mass)
+      refuse(
+          o.radiation_file, "", "",
+          fmt::format("added mass of mode {} at infinite frequency is below zero: water at rest would give energy; look at its "
+                      "sign, or give the row of period 0",
+                      i + 1));
   }
 }
 

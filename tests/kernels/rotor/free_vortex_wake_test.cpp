@@ -43,6 +43,18 @@ Wing elliptic_wing(int sections, double root_chord, double attack) {
   return {sum.lift / area, sum.drag / area};
 }
 
+/// Blades from this radius to 1, blade 1 upright at azimuth 0.
+LiftingLines straight_blades(int blades, int sections, double hub, double azimuth) {
+  LiftingLines all;
+  for (int b = 0; b < blades; ++b) {
+    const double angle = azimuth + 2.0 * pi * b / blades;
+    const Vector3d out(0, -std::sin(angle), std::cos(angle));
+    for (int j = 0; j <= sections; ++j) all.ends.push_back((hub + (1.0 - hub) * j / sections) * out);
+    for (int j = 0; j < sections; ++j) all.middles.push_back((hub + (1.0 - hub) * (j + 0.5) / sections) * out);
+  }
+  return all;
+}
+
 }  // namespace
 
 TEST_CASE("an elliptic wing has Prandtl's lift and induced drag, and tends to them at second order", "[rotor][fast]") {
@@ -65,16 +77,7 @@ TEST_CASE("a rotor of even loading slows the wind nearly as momentum theory says
   const int blades = 3, sections = 6;
   const double speed = 10.0, thrust = 0.8, a = 0.5 * (1.0 - std::sqrt(1.0 - thrust)), hub = 0.1, step = 10.0 * radians_per_degree;
   const double bound = thrust * pi / (blades * speed);
-  const auto lines = [&](double azimuth) {
-    LiftingLines all;
-    for (int b = 0; b < blades; ++b) {
-      const double angle = azimuth + 2.0 * pi * b / blades;
-      const Vector3d out(0, -std::sin(angle), std::cos(angle));
-      for (int j = 0; j <= sections; ++j) all.ends.push_back((hub + (1.0 - hub) * j / sections) * out);
-      for (int j = 0; j < sections; ++j) all.middles.push_back((hub + (1.0 - hub) * (j + 0.5) / sections) * out);
-    }
-    return all;
-  };
+  const auto lines = [&](double azimuth) { return straight_blades(blades, sections, hub, azimuth); };
   const std::vector<double> chords(sections, 0.1), strengths(std::size_t(blades * sections), bound);
   const FreeVortexWake wake({.turns = 8.0, .step = step, .core_chords = 0.5, .viscosity = 1e-8}, chords, blades, 1.0);
   std::vector<double> memory(wake.memory_size());
@@ -108,16 +111,7 @@ TEST_CASE("without wind a rotor begins in air at rest, a breath of wind changes 
   // Blades set to lift in still air; two pi of lift per angle.
   const int blades = 3, sections = 6;
   const double speed = 10.0, hub = 0.1, setting = 0.1, chord = 0.1, step = 10.0 * radians_per_degree, h = step / speed;
-  const auto lines = [&](double azimuth) {
-    LiftingLines all;
-    for (int b = 0; b < blades; ++b) {
-      const double angle = azimuth + 2.0 * pi * b / blades;
-      const Vector3d out(0, -std::sin(angle), std::cos(angle));
-      for (int j = 0; j <= sections; ++j) all.ends.push_back((hub + (1.0 - hub) * j / sections) * out);
-      for (int j = 0; j < sections; ++j) all.middles.push_back((hub + (1.0 - hub) * (j + 0.5) / sections) * out);
-    }
-    return all;
-  };
+  const auto lines = [&](double azimuth) { return straight_blades(blades, sections, hub, azimuth); };
   const std::vector<double> chords(sections, chord), bound(std::size_t(blades * sections), 0.2);
   const auto circulation = [&](std::size_t i, const Vector3d& w) {
     const double across = speed * (hub + (1.0 - hub) * (double(i % sections) + 0.5) / sections);

@@ -14,6 +14,7 @@
 
 #include "src/bodies/loads.hpp"
 #include "src/bodies/system.hpp"
+#include "src/scene/error.hpp"
 #include "tests/order.hpp"
 
 using namespace spindrift;
@@ -146,6 +147,23 @@ TEST_CASE("a memory that 24 poles cannot follow is refused by its modes", "[sea]
   PotentialOptions options = files.options();
   options.radiation = "state_space", options.fit_tolerance = 1e-14;
   CHECK_THROWS_WITH(PotentialBody(options, {density, 100.0, 10.0}, Motion{}, {}, 0.05), Catch::Contains("modes 3 and 3"));
+}
+
+TEST_CASE("radiation that would give energy is refused by its mode, the noise of modes that have none is not", "[sea][fast]") {
+  const auto refusal = [](int mode, double added_mass, double damping) {
+    const Files files;
+    std::ofstream(files.folder / "body.1", std::ios::app) << "0.0 " << mode << " " << mode << " " << added_mass << "\n6.0 "
+                                                          << mode << " " << mode << " " << added_mass << " " << damping << "\n";
+    try {
+      PotentialBody(files.options(), {density, 100.0, 10.0}, Motion{}, {}, 0.05);
+    } catch (const scene::SceneError& e) { return std::string(e.what()); }
+    return std::string();
+  };
+  const double some = infinite / density;
+  CHECK_THAT(refusal(1, -some, some), Catch::Contains("added mass of mode 1 at infinite frequency is below zero"));
+  CHECK_THAT(refusal(2, some, -some), Catch::Contains("damping of mode 2 is below zero at the period of 6 s"));
+  CHECK(refusal(1, some, some).empty());
+  CHECK(refusal(1, -1e-6 * some, -1e-6 * some).empty());
 }
 
 TEST_CASE("the decay converges with the step at second order", "[sea][order][fast]") {
