@@ -207,11 +207,19 @@ std::string FlowSimulation::failure_at_end() const {
     return walls.empty() ? walls : "aero: " + walls;
   }
   const aero::MarchState& march = air_.solver().march();
+  const aero::MarchOptions& asked = air_.solver().setting().march;
+  const std::string loads =
+      asked.load_change <= 0.0
+          ? ""
+          : fmt::format(", the loads {} over the last {} pseudo-steps, {:.2g} is asked for (aero.flow.load_change)",
+                        march.load_swing < 1.0 ? fmt::format("changed by {:.2g} of themselves", march.load_swing)
+                                               : "did not come to rest",
+                        asked.load_window, asked.load_change);
   return fmt::format(
       "aero: not converged in the {} pseudo-steps of the scene: the flux balance is at {:.2g} of that at the start, the density "
-      "residual at {:.2g}, {:.2g} is asked for (aero.flow.drop; 0 takes all steps whatever they reach); {}; --restart with a "
+      "residual at {:.2g}, {:.2g} is asked for (aero.flow.drop; 0 takes all steps whatever they reach){}; {}; --restart with a "
       "larger time.end_s goes on",
-      march.steps_made(), march.balance_drop(), march.density_drop(), o.drop, air_.solver().worst_cells(world_.comm));
+      march.steps_made(), march.balance_drop(), march.density_drop(), o.drop, loads, air_.solver().worst_cells(world_.comm));
 }
 
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }

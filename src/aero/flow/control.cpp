@@ -15,6 +15,9 @@ namespace {
 constexpr int circling_steps = 6;
 constexpr double from_the_first = 2.0;  ///< as matrix_free_below
 
+/// CFL number times the share of the update below which a pseudo-step is too short for loads to show whether they have settled.
+constexpr double least_advance = 1.0;
+
 }  // namespace
 
 double MarchState::balance_drop() const {
@@ -123,8 +126,15 @@ Verdict March::judge(const Norms& n, double load) {
   }
   if (fresh || s_.balance_drop() < 0.5 * better_) better_ = s_.balance_drop(), s_.still_for = 0;
   choose_operator();
+  if (stepped && s_.last.cfl * s_.last.fraction < least_advance) loads_.clear();
   if (int(loads_.size()) > o_.load_window) loads_.erase(loads_.begin());
   loads_.push_back(load);
+  s_.load_swing = 1.0;
+  if (int(loads_.size()) > o_.load_window) {
+    const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
+    const double larger = std::max(std::abs(*low), std::abs(*high));
+    s_.load_swing = larger > 0.0 ? (*high - *low) / larger : 0.0;
+  }
   if (s_.steps > o_.min_steps)
     if (const char* why = why_done(n)) return end(Verdict::converged, why);
   if (s_.steps > last_step_) return end(Verdict::converged, "the number of pseudo-steps is spent", true);
@@ -191,10 +201,7 @@ const char* March::why_done(const Norms& n) const {
   if (o_.by_balance && n.mean + n.model <= n.noise) return "the flux balance is down to round-off";
   if (!o_.by_balance && s_.now.density <= o_.drop * s_.first.density) return "the density residual fell by the drop asked for";
   if (s_.now.density <= o_.absolute) return "the density residual is below the absolute limit";
-  if (o_.load_change > 0.0 && int(loads_.size()) > o_.load_window) {
-    const auto [low, high] = std::minmax_element(loads_.end() - o_.load_window, loads_.end());
-    if (*high - *low <= o_.load_change * std::max(std::abs(*low), std::abs(*high))) return "the loads have settled";
-  }
+  if (o_.load_change > 0.0 && s_.load_swing <= o_.load_change) return "the loads have settled";
   return nullptr;
 }
 

@@ -20,7 +20,8 @@ struct MarchOptions {
   double drop = 1e-2;         ///< of the residual since the start of the (physical) step: done; 0: all steps are meant
   bool by_balance = false;    ///< that residual is the norm of all scaled flux balances; else that of the density's rate
   double absolute = 0.0;      ///< density residual [kg/(m3 s)] below which all is done
-  double load_change = 0.0;   ///< relative change of the loads over load_window steps: done; 0: not checked
+  double load_change =
+      0.0;  ///< relative change of the loads over load_window steps of a cell's passage at least: done; 0: not checked
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
   int still_steps = 200;            ///< pseudo-steps without the flux balance being halved: the march stands still,
@@ -73,6 +74,7 @@ struct MarchState {
   Residuals now, first;        ///< `first`: of its start, or of what stands for that
   double mass_residual = 0.0;  ///< root mean square of the mass balances [kg/s]
   PseudoStep last;
+  double load_swing = 1.0;   ///< change of the loads over the last load_window steps, of the larger; 1: too few steps are known
   int still_for = 0;         ///< pseudo-steps since the flux balance last came to half
   bool matrix_free = false;  ///< the products of the next step
   /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the
@@ -153,7 +155,7 @@ class March {
   bool judging_only_ = false;
   Made made_ = Made::nothing;
   Matrix matrix_;
-  std::vector<double> loads_;  ///< of the last load_window steps, and one more
+  std::vector<double> loads_;  ///< of the last load_window steps, and one more; none from before a step of no length
 };
 
 }  // namespace spindrift::aero

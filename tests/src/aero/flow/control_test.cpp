@@ -110,6 +110,19 @@ TEST_CASE("loads that have settled end a march where asked", "[flow][fast]") {
   CHECK(steps < 20);
 }
 
+TEST_CASE("loads that rest as steps have no length have not settled", "[flow][fast]") {
+  const MarchOptions options{.cfl_start = 2.0, .drop = 0.0, .load_change = 1e-3, .load_window = 5, .max_steps = 60};
+  const auto steps = [&](double fraction, double linear_drop) {
+    March march(options);
+    march.begin_step();
+    while (march.judge(of(1.0), 10.0) == Verdict::go_on) march.updated(fraction, 5, linear_drop);
+    return march.state().steps;
+  };
+  CHECK(steps(1.0, 0.1) == 6);   // full steps
+  CHECK(steps(0.01, 0.1) > 60);  // updates cut short
+  CHECK(steps(1.0, 0.95) > 60);  // a CFL number that falls, as linear systems are not solved
+}
+
 TEST_CASE("by the flux balance a march ends when mean flow and turbulence have both fallen from the start", "[flow][fast]") {
   const auto state = [](double mean, double model) {
     return Norms{.density = 1e-12, .mean = mean * mean, .model = model * model, .cells = 1.0};
