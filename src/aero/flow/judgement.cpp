@@ -54,8 +54,11 @@ Judgement::Judgement(const FlowSetting& setting, std::vector<PatchCondition> con
       unsteady_(setting.time_order > 0),
       stops_anywhere_(unsteady_ || (setting.march.refresh_every == 1 && setting.coarse.common_every == 1)) {
   norms.resize(arrays.tiles.size(), norm_count);
-  loads.resize(arrays.tiles.size(), patch_sums());
-  for (FlowTile& tile : arrays.tiles) tile.noise = noise_of(tile, setting);
+  for (FlowTile& tile : arrays.tiles) {
+    tile.noise = noise_of(tile, setting);
+    loaded_.push_back(has_loads(tile) ? loaded_tiles_++ : none);
+  }
+  loads.resize(loaded_tiles_, patch_sums());
   rows.all.reserve(1024);
 }
 
@@ -63,7 +66,7 @@ std::size_t Judgement::patch_sums() const { return std::max<std::size_t>(1, cond
 
 void Judgement::gather_bands(LoadBands bands) {
   bands_ = std::move(bands);
-  loads.resize(arrays_.tiles.size(), patch_sums() + std::size_t(bands_.count) * band_components);
+  loads.resize(loaded_tiles_, patch_sums() + std::size_t(bands_.count) * band_components);
 }
 
 void Judgement::set_body_force(std::shared_ptr<BodyForce> force) {
@@ -82,7 +85,7 @@ void Judgement::begin() {
 
 void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual) {
   FlowTile& tile = arrays_.tiles[owned];
-  const std::span<double> partial = norms.of(owned), on_walls = loads.of(owned);
+  const std::span<double> partial = norms.of(owned);
   const TileGeometry& g = *tile.geometry;
   std::fill(partial.begin(), partial.end(), 0.0);
   partial[5] = tile.noise;
@@ -122,8 +125,11 @@ void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const F
       }
       partial[7] += forced;
     });
-  std::fill(on_walls.begin(), on_walls.end(), 0.0);
-  add_loads(tile, tile.state.data(), residual.viscous(), bands_, on_walls);
+  if (loaded_[owned] != none) {
+    const std::span<double> on_walls = loads.of(loaded_[owned]);
+    std::fill(on_walls.begin(), on_walls.end(), 0.0);
+    add_loads(tile, tile.state.data(), residual.viscous(), bands_, on_walls);
+  }
   const MassBalance mass = residual.mass_balance(tile);
   partial[first_of_mass] = mass.inflow, partial[first_of_mass + 1] = mass.outflow;
   partial[first_of_mass + 2] = mass.growth, partial[first_of_mass + 3] = mass.residual;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -78,7 +79,7 @@ class Judgement {
 
   March march;
   PseudoRows rows;
-  TileSums norms, loads, force_samples;  ///< `loads`: by patch, then by band
+  TileSums norms, loads, force_samples;  ///< `loads`: of tiles that have any, by patch, then by band
 
  private:
   void name_trouble();
@@ -86,6 +87,9 @@ class Judgement {
 
   std::vector<PatchCondition> conditions_;
   TileArrays& arrays_;
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> loaded_;  ///< of each owned tile: its place in `loads`, or none
+  std::size_t loaded_tiles_ = 0;
   LoadBands bands_;
   std::shared_ptr<BodyForce> body_force_;
   bool unsteady_;

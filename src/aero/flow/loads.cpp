@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/loads.hpp"
 
+#include <algorithm>
+
 #include "src/aero/flow/sweep.hpp"
 
 namespace spindrift::aero {
@@ -40,6 +42,10 @@ BandLoads band_loads(std::span<const double> sums, int bands, int band) {
   const double* at = sums.data() + sums.size() - std::size_t(bands - band) * band_components;
   for (std::size_t c = 0; c < 3; ++c) loads.pressure_force[c] = at[c], loads.viscous_force[c] = at[3 + c];
   return loads;
+}
+
+bool has_loads(const FlowTile& tile) {
+  return std::ranges::any_of(tile.boundaries, [](const FlowBoundary& b) { return b.loads && is_closed(*b.condition); });
 }
 
 void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,

@@ -33,6 +33,8 @@ inline constexpr int band_components = 6;
 /// `sums`: of the patches, then of the bands, as add_loads fills them.
 BandLoads band_loads(std::span<const double> sums, int bands, int band);
 
+/// Whether a tile has walls whose loads count.
+bool has_loads(const FlowTile& tile);
 /// Adds the loads on a tile's walls to partial[patch][component] and, behind the patches, to those of the bands.
 void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,
                std::span<double> partial);

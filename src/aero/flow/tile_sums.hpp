@@ -7,7 +7,7 @@
 namespace spindrift::aero {
 
 struct TileSums {
-  std::vector<double> partials;  ///< [owned tile][number]
+  std::vector<double> partials;  ///< [tile][number], of owned tiles
   std::vector<double> result;    ///< [number], of all tiles of all ranks
 
   void resize(std::size_t owned, std::size_t numbers) { partials.resize(owned * numbers), result.resize(numbers); }
