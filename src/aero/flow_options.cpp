@@ -162,6 +162,11 @@ const scene::Section<FlowOptions>& flow_section() {
                     "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into "
                     "scene.toml"}},
                   "Approximate inverse that the linear solver works with; docs/user/air_choices.md says which for what.")
+          .integer("tile_cells", &FlowOptions::tile_cells, "-",
+                   "Most cells of a tile, as far as 16 lines of cells from a wall may be that few. A tile is a task, and is "
+                   "factorised by "
+                   "itself: smaller ones suit more cores, and take more iterations. Changes the last digits.",
+                   between(256, 1e6))
           .integer("group_cells", &FlowOptions::group_cells, "-",
                    "Longest side of a group of cells of the coarse correction; 0: a group is a whole tile.", between(0, 64))
           .only_if("preconditioner", {"coarse", "auto"})
@@ -280,8 +285,10 @@ std::vector<std::string> wall_patches(const FlowOptions& options) {
   return names;
 }
 
+TilingOptions tile_limits(const FlowOptions& options) { return {.max_cells = options.tile_cells}; }
+
 Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid) {
-  TilingOptions tiling;
+  TilingOptions tiling = tile_limits(options);
   for (const PatchOptions& b : options.boundaries)
     if (options.viscous != "none" && of(b.condition).surface == Surface::no_slip) tiling.sticky.push_back(b.patch);
   return make_tiling(grid, wall_patches(options), tiling);

@@ -81,6 +81,7 @@ struct FlowLinearOptions {
   double krylov_drop = 0.05;
   std::optional<double> matrix_free_below;  ///< unset: from the first step of a steady march, from 1e-2 on of an unsteady one's
   std::string preconditioner = "block_ilu";
+  int tile_cells = 8192;  ///< most cells of a tile: a task, a factorisation, what a rank has at least
   int group_cells = 8, direct_groups = 512, common_every = 1, common_steps = 1;  ///< of preconditioners with a coarse level
 };
 
@@ -101,6 +102,8 @@ FlowSetting flow_setting(const FlowOptions& options, double density, const Eigen
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling);
 /// Names of the patches whose normal direction is to be a tile's i.
 std::vector<std::string> wall_patches(const FlowOptions& options);
+/// How large its tiles may be.
+TilingOptions tile_limits(const FlowOptions& options);
 /// How the grid of this flow is cut into tiles.
 Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid);
 

@@ -115,7 +115,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   const MultiBlockGrid& solved_on = steady() ? placed : grid;
   const std::vector<std::string> blades = blade_patches(grid);
   if (told) told("tiles", 0.0);
-  Tiling tiling = make_tiling(solved_on, blades);
+  Tiling tiling = make_tiling(solved_on, blades, tile_limits(setup.flow));
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
   require_ranks(std::size_t(tiling.size()), ranks);

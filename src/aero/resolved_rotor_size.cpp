@@ -33,6 +33,7 @@ struct Kind {
   bool flexible = false, eddies = false, planar = false;
   bool turns = true;    ///< faces have speeds: a rotor's grid, which turns with it
   bool moving = false;  ///< nodes have places of steps before
+  TilingOptions tiles;
 };
 
 Kind kind_of(const FlowOptions& o) {
@@ -41,6 +42,7 @@ Kind kind_of(const FlowOptions& o) {
   if (kind.eddies) kind.turbulence = model_sweeps(o.turbulence).equations;
   kind.unknowns += kind.turbulence;
   kind.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
+  kind.tiles = tile_limits(o);
   kind.krylov_steps = o.krylov_steps, kind.flexible = o.krylov != KrylovMethod::gmres;
   return kind;
 }
@@ -71,8 +73,8 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
 
 /// Of a block cut as tiling.cpp does; which direction is i matters little.
 double block_bytes(const Kind& kind, std::array<int, 3> n) {
-  const TilingOptions most;
-  const std::array<int, 3> target{most.normal, most.across_j, most.across_k};
+  const auto [j, k] = tile_across(std::min(n[0], kind.tiles.normal), kind.tiles);
+  const std::array<int, 3> target{kind.tiles.normal, j, k};
   std::array<double, 3> parts;
   std::array<int, 3> size;
   for (std::size_t d = 0; d < 3; ++d) {

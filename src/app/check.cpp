@@ -336,16 +336,17 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
   if (const std::string note = far_side_note(grid); !note.empty()) fmt::print("  note: {}\n", note);
 }
 
-/// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
 /// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of millions of cells, which takes
 /// minutes.
 void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
   constexpr long made_at_most = 300'000;
   if (aero::resolved_rotor_size(setup).cells > made_at_most) return;
   const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
-  aero::require_ranks(std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid)).size()), ranks);
+  aero::require_ranks(
+      std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid), aero::tile_limits(setup.flow)).size()), ranks);
 }
 
+/// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
 aero::ResolvedRotorSetup resolved_rotor_on(const FloatingSystem& floating, const coupling::Start& start) {
   aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(floating.scenario());
   setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;

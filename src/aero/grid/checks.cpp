@@ -224,7 +224,8 @@ void require_ranks(std::size_t tiles, int ranks) {
   if (std::size_t(ranks) <= tiles) return;
   throw scene::SceneError(
       {{"command line", 0, "ranks of the air", fmt::format("{}", ranks),
-        fmt::format("the grid has {} tile{}, and each rank needs one: at most {}", tiles, tiles == 1 ? "" : "s", tiles)}});
+        fmt::format("the grid has {} tile{}, and each rank needs one: at most {} ranks, or smaller tiles (aero.flow.tile_cells)",
+                    tiles, tiles == 1 ? "" : "s", tiles)}});
 }
 
 void require_sound(const MultiBlockGrid& grid, const std::string& source, const CheckOptions& options) {

@@ -167,6 +167,16 @@ Index tile_axes(int direction, bool planar) {
   return planar ? Index{2, -1, 3} : Index{2, 3, 1};
 }
 
+}  // namespace
+
+std::array<int, 2> tile_across(int line_cells, const TilingOptions& o) {
+  int j = o.across_j, k = o.across_k;
+  while (long(line_cells) * j * k > o.max_cells && (j > 4 || k > 4)) (j >= k ? j : k) /= 2;
+  return {j, k};
+}
+
+namespace {
+
 /// Largest tile in its own directions.
 Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingOptions& o) {
   if (planar) {
@@ -176,8 +186,7 @@ Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingO
     return {i, j, 1};
   }
   const int i = lines.of_wall ? line_cells : std::min(line_cells, o.normal);
-  int j = o.across_j, k = o.across_k;
-  while (long(i) * j * k > o.max_cells && (j > 4 || k > 4)) (j >= k ? j : k) /= 2;
+  const auto [j, k] = tile_across(i, o);
   return {i, j, k};
 }
 

@@ -27,6 +27,9 @@ struct TilingOptions {
   std::vector<std::string> sticky = {};  ///< patches that the gas sticks to: Tile::along_wall
 };
 
+/// The largest tile across lines of so many cells from a wall, of a grid in three dimensions.
+std::array<int, 2> tile_across(int line_cells, const TilingOptions& options);
+
 /// A box of cells of one block, seen in directions of its own: from tile to block indices by `to_block`.
 struct Tile {
   int block = 0;

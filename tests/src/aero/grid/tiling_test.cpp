@@ -49,6 +49,20 @@ TEST_CASE("tiles cover every cell of every block once, whatever the blocks' orie
     for (const int c : block) REQUIRE(c == 1);
 }
 
+TEST_CASE("tiles have no more cells than they may, and lines from a wall are whole", "[aero][grid][fast]") {
+  const MultiBlockGrid grid = cartesian_box({.ni = 24, .nj = 32, .nk = 64});
+  const std::vector<std::string> walls{"j_min"};
+  for (const int most : {8192, 2048, 600}) {
+    const Tiling tiling = make_tiling(grid, walls, {.max_cells = most});
+    for (const Tile& tile : tiling.tiles) {
+      CHECK(tile.count() <= most);
+      CHECK(tile.ni == 32);
+    }
+    CHECK(tiling.size() >= 24 * 32 * 64 / most);
+    CHECK(tiling.size() <= 4 * 24 * 32 * 64 / most);
+  }
+}
+
 TEST_CASE("every face of a tile's sides has one neighbour or one boundary", "[aero][grid][fast]") {
   const bool planar = GENERATE(false, true);
   BoxOptions box{.ni = 13, .nj = 17, .nk = 11};
