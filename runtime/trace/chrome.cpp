@@ -1,11 +1,12 @@
-// One JSON object a line, written as it is made: a trace may be larger than memory has room for twice. Times are microseconds
-// from the first record. SPDX-License-Identifier: Apache-2.0
+// One JSON object a line, written (and compressed) as it is made: a trace may be larger than memory has room for twice. Times are
+// microseconds from the first record. SPDX-License-Identifier: Apache-2.0
 #include "runtime/trace/chrome.hpp"
+
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cinttypes>
-#include <cstdio>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -37,8 +38,9 @@ class ChromeWriter {
         path_(path),
         occurrences_(occurrences_of(traces)),
         row_(occurrences_.all.size(), -1),
-        file_(std::fopen(path.c_str(), "w"), &std::fclose) {
+        file_(gzopen(path.c_str(), path.ends_with(".gz") ? "wb1" : "wbT"), &gzclose) {
     if (!file_) fail();
+    gzbuffer(file_.get(), 1 << 17);
     std::int64_t last = 0;
     origin_ = RankTrace::always;
     for (const RankTrace& trace : traces)
@@ -49,7 +51,7 @@ class ChromeWriter {
   }
 
   void write(const ChromeOptions& options) {
-    std::fputs("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n", file_.get());
+    gzputs(file_.get(), "{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
     place_messages();
     names();
     slices();
@@ -57,9 +59,9 @@ class ChromeWriter {
     arrows();
     counters(options.counter_bins);
     // A last event without a comma after it.
-    std::fprintf(file_.get(), R"({"ph":"M","name":"process_labels","pid":0,"args":{"labels":"spindrift"}})"
-                              "\n]}\n");
-    if (std::ferror(file_.get()) != 0 || std::fflush(file_.get()) != 0) fail();
+    gzprintf(file_.get(), R"({"ph":"M","name":"process_labels","pid":0,"args":{"labels":"spindrift"}})"
+                          "\n]}\n");
+    if (gzclose(file_.release()) != Z_OK) fail();
   }
 
  private:
@@ -89,17 +91,17 @@ class ChromeWriter {
 
   void names() {
     const auto name_row = [this](int rank, int row, const std::string& name) {
-      std::fprintf(file_.get(),
-                   R"({"ph":"M","name":"thread_name","pid":%d,"tid":%d,"args":{"name":"%s"}},)"
-                   "\n",
-                   rank, row, name.c_str());
+      gzprintf(file_.get(),
+               R"({"ph":"M","name":"thread_name","pid":%d,"tid":%d,"args":{"name":"%s"}},)"
+               "\n",
+               rank, row, name.c_str());
     };
     for (std::size_t t = 0; t < traces_.size(); ++t) {
       const int rank = traces_[t].rank;
-      std::fprintf(file_.get(),
-                   R"({"ph":"M","name":"process_name","pid":%d,"args":{"name":"rank %d"}},)"
-                   "\n",
-                   rank, rank);
+      gzprintf(file_.get(),
+               R"({"ph":"M","name":"process_name","pid":%d,"args":{"name":"rank %d"}},)"
+               "\n",
+               rank, rank);
       for (std::size_t thread = 0; thread < traces_[t].threads.size(); ++thread)
         name_row(rank, int(thread), "thread " + std::to_string(thread));
       for (int row = 0; row < message_rows_[t]; ++row) name_row(rank, first_message_row + row, "messages " + std::to_string(row));
@@ -110,13 +112,12 @@ class ChromeWriter {
     for (std::size_t n = 0; n < occurrences_.all.size(); ++n) {
       const Occurrence& o = occurrences_.all[n];
       if (o.record == nullptr) continue;
-      std::fprintf(
-          file_.get(),
-          R"({"ph":"X","name":"%s","cat":"%s","pid":%d,"tid":%d,"ts":%.3f,"dur":%.3f,"args":{"replay":%u,"iteration":%u)",
-          escaped(node(o).label).c_str(), escaped(module_of(node(o).label)).c_str(), rank(o), row_[n], us(o.begin),
-          1e-3 * double(o.end - o.begin), o.record->replay, o.record->iteration);
-      if (o.is_message()) std::fprintf(file_.get(), R"(,"bytes":%u,"peer":%d)", o.record->bytes, node(o).peer);
-      std::fputs("}},\n", file_.get());
+      gzprintf(file_.get(),
+               R"({"ph":"X","name":"%s","cat":"%s","pid":%d,"tid":%d,"ts":%.3f,"dur":%.3f,"args":{"replay":%u,"iteration":%u)",
+               escaped(node(o).label).c_str(), escaped(module_of(node(o).label)).c_str(), rank(o), row_[n], us(o.begin),
+               1e-3 * double(o.end - o.begin), o.record->replay, o.record->iteration);
+      if (o.is_message()) gzprintf(file_.get(), R"(,"bytes":%u,"peer":%d)", o.record->bytes, node(o).peer);
+      gzputs(file_.get(), "}},\n");
     }
   }
 
@@ -125,11 +126,11 @@ class ChromeWriter {
     for (const RankTrace& trace : traces_)
       for (const Record& record : trace.records)
         if (record.activity == Activity::idle || record.activity == Activity::poll)
-          std::fprintf(file_.get(),
-                       R"({"ph":"X","name":"%s","cat":"runtime","pid":%d,"tid":%d,"ts":%.3f,"dur":%.3f},)"
-                       "\n",
-                       record.activity == Activity::idle ? "idle" : "completing messages", trace.rank, int(record.thread),
-                       us(record.begin_ns), 1e-3 * double(record.end_ns - record.begin_ns));
+          gzprintf(file_.get(),
+                   R"({"ph":"X","name":"%s","cat":"runtime","pid":%d,"tid":%d,"ts":%.3f,"dur":%.3f},)"
+                   "\n",
+                   record.activity == Activity::idle ? "idle" : "completing messages", trace.rank, int(record.thread),
+                   us(record.begin_ns), 1e-3 * double(record.end_ns - record.begin_ns));
   }
 
   /// From the time `at` in one slice to the time `to_at` in another.
@@ -137,8 +138,8 @@ class ChromeWriter {
     const Occurrence &a = occurrences_.all[from], &b = occurrences_.all[to];
     const char* format = R"({"ph":"%s","name":"%s","cat":"%s","id":%ld,"pid":%d,"tid":%d,"ts":%.3f%s},)"
                          "\n";
-    std::fprintf(file_.get(), format, "s", name, name, arrows_, rank(a), row_[from], us(at), "");
-    std::fprintf(file_.get(), format, "f", name, name, arrows_, rank(b), row_[to], us(to_at), R"(,"bp":"e")");
+    gzprintf(file_.get(), format, "s", name, name, arrows_, rank(a), row_[from], us(at), "");
+    gzprintf(file_.get(), format, "f", name, name, arrows_, rank(b), row_[to], us(to_at), R"(,"bp":"e")");
     ++arrows_;
   }
 
@@ -193,22 +194,21 @@ class ChromeWriter {
       }
       for (int n = 0; n < bins; ++n) {
         const auto open = [&](const char* name) {
-          std::fprintf(file_.get(), R"({"ph":"C","name":"%s","pid":%d,"ts":%.3f,"args":{)", name, traces_[t].rank,
-                       1e-3 * width * n);
+          gzprintf(file_.get(), R"({"ph":"C","name":"%s","pid":%d,"ts":%.3f,"args":{)", name, traces_[t].rank, 1e-3 * width * n);
         };
         open("busy threads");
         const char* comma = "";
         for (const auto& [module, bin] : busy) {
-          std::fprintf(file_.get(), R"(%s"%s":%.3g)", comma, escaped(module).c_str(), bin[n]);
+          gzprintf(file_.get(), R"(%s"%s":%.3g)", comma, escaped(module).c_str(), bin[n]);
           comma = ",";
         }
-        std::fputs("}},\n", file_.get());
+        gzputs(file_.get(), "}},\n");
         if (message_rows_[t] == 0) continue;
         open("bytes under way");
-        std::fprintf(file_.get(),
-                     R"("bytes":%.6g}},)"
-                     "\n",
-                     bytes[n]);
+        gzprintf(file_.get(),
+                 R"("bytes":%.6g}},)"
+                 "\n",
+                 bytes[n]);
       }
     }
   }
@@ -223,7 +223,7 @@ class ChromeWriter {
   std::string path_;
   Occurrences occurrences_;
   std::vector<int> row_, message_rows_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
   std::int64_t origin_ = 0, span_ = 1;
   long arrows_ = 0;
   std::set<std::pair<std::uint32_t, std::string_view>> led_;  ///< from a record to a module

@@ -16,7 +16,7 @@ struct ChromeOptions {
   int counter_bins = 2000;  ///< points of each counter over the whole trace
 };
 
-/// Throws std::runtime_error with the system's message where the file cannot be written.
+/// Compressed where the path ends with .gz. Throws std::runtime_error with the system's message where the file cannot be written.
 void write_chrome_trace(std::span<const RankTrace> traces, const std::string& path, ChromeOptions options = {});
 
 }  // namespace spindrift::runtime

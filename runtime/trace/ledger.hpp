@@ -1,6 +1,6 @@
 // Where the core-seconds of a run went, all of them: tasks of every executor there was, also of those that are gone, and what a
 // rank did outside of tasks, by label; waiting, messages and the runtime's own work. Made by the driver of a run; fed by Executor
-// and by spans; read as a trace (trace_of.hpp), from which table, summary and trace.json follow.
+// and by spans; read as a trace (trace_of.hpp), from which table, summary and trace.json.gz follow.
 // Tested in tests/runtime/trace/ledger_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

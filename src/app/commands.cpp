@@ -184,7 +184,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         ->allow_extra_args(false)
         ->needs("--restart");
     command->add_flag("--overwrite", arguments->overwrite, "Replace the run in the run directory")->excludes("--restart");
-    command->add_flag("--trace", arguments->trace, "Write trace.json (open with Perfetto or chrome://tracing)");
+    command->add_flag("--trace", arguments->trace, "Write trace.json.gz (open with Perfetto or chrome://tracing)");
     command->add_option("--record-graph", arguments->record_graph,
                         "Write the task graph of some windows with measured costs to this file: spindrift replay FILE");
     command

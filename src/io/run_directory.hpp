@@ -43,7 +43,7 @@ class RunDirectory {
   std::filesystem::path history() const { return path_ / "history.csv"; }
   std::filesystem::path summary() const { return path_ / "summary.json"; }
   std::filesystem::path log() const { return path_ / "log.txt"; }
-  std::filesystem::path trace() const { return path_ / "trace.json"; }
+  std::filesystem::path trace() const { return path_ / "trace.json.gz"; }
   std::filesystem::path report() const { return path_ / "report.html"; }
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
   std::filesystem::path settling() const { return path_ / "settling"; }  ///< of air that settles before the run

@@ -388,7 +388,7 @@ def timeline(run):
     if len(run.tasks) < 10:
         return ""
     figure, legend = figures.timeline(run.tasks)
-    return safe(f'<div class="figures">{_figure("Tasks of each thread", legend, figure, "A stretch from the middle of trace.json, which Perfetto shows whole.")}</div>')
+    return safe(f'<div class="figures">{_figure("Tasks of each thread", legend, figure, "A stretch from the middle of trace.json.gz, which Perfetto shows whole.")}</div>')
 
 
 def spectra(runs):
@@ -458,7 +458,7 @@ def where_time(run):
         most = sorted(run.trace.items(), key=lambda kv: -kv[1])[:12]
         whole = sum(run.trace.values()) or 1.0
         out += safe("<h3>Tasks that took most</h3>") + parts.bars([(label, _share(s, whole), f"{number(s, 3)} s · {100 * s / whole:.1f} %") for label, s in most],
-                                                                  "From trace.json, labels summed by their first two parts.")
+                                                                  "From trace.json.gz, labels summed by their first two parts.")
     return out
 
 

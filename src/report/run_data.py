@@ -1,9 +1,11 @@
 """One run directory, read: scene, history, summary, log, trace. What is missing or broken is said in `notes`, never an error.
 Called by spindrift_report.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import gzip
 import json
 import pathlib
 import tomllib
 import warnings
+import zlib
 
 import numpy as np
 
@@ -188,15 +190,17 @@ class RunData:
         return np.array(rows).reshape(-1, width)
 
     def _trace(self):
-        """Seconds by task label (its first two parts), of the complete events of trace.json; `tasks`: (start [s], end [s], module, (rank, thread)) of each."""
-        path = self.folder / "trace.json"
+        """Seconds by task label (its first two parts), of the complete events of trace.json.gz; `tasks`: (start [s], end [s], module, (rank, thread)) of each."""
+        path = self.folder / "trace.json.gz"
         if not path.exists():
             return {}
-        if path.stat().st_size > TRACE_LIMIT_BYTES:
-            self.notes.append("trace.json is too large to be summed up here; open it in the Perfetto viewer")
-            return {}
         try:
-            found = json.loads(self._text("trace.json"))
+            with gzip.open(path) as file:
+                text = file.read(TRACE_LIMIT_BYTES + 1)
+            if len(text) > TRACE_LIMIT_BYTES:
+                self.notes.append("trace.json.gz is too large to be summed up here; open it in the Perfetto viewer")
+                return {}
+            found = json.loads(text)
             events = found.get("traceEvents", []) if isinstance(found, dict) else found
             seconds = {}
             for event in events:
@@ -206,6 +210,6 @@ class RunData:
                     seconds[label] = seconds.get(label, 0.0) + took
                     self.tasks.append((start, start + took, words[0], (event.get("pid", 0), event.get("tid", 0))))
             return seconds
-        except (ValueError, AttributeError, TypeError) as error:
-            self.notes.append(f"trace.json cannot be read: {error}")
+        except (OSError, EOFError, zlib.error, ValueError, AttributeError, TypeError) as error:
+            self.notes.append(f"trace.json.gz cannot be read: {error}")
             return {}

@@ -154,7 +154,7 @@ void Driver::end_early(const std::string& why) {
 }
 
 /// Where the core-seconds of all ranks went, from the ledger: into the summary by part, into the log as a table, and to
-/// trace.json where asked for. Collective.
+/// trace.json.gz where asked for. Collective.
 void Driver::describe_times() {
   const runtime::World& world = parts_.world();
   runtime::RankTrace own = ledger_.trace(world.rank);

@@ -1,6 +1,7 @@
 """The program as a user meets it: exit codes, messages, run directory, restart, ranks. Usage: program_test.py SPINDRIFT [CLASS...]"""
 import concurrent.futures
 import functools
+import gzip
 import json
 import os
 import re
@@ -23,12 +24,12 @@ class Program(Folder):
     def test_a_run_leaves_everything_the_documentation_names(self):
         done = self.run_case("--until", 2, "--trace", "--set", "aero.thrust_N=1.4e6")
         self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("scene.toml", "history.csv", "summary.json", "log.txt", "checkpoints", "trace.json"):
+        for name in ("scene.toml", "history.csv", "summary.json", "log.txt", "checkpoints", "trace.json.gz"):
             self.assertTrue((self.out / name).exists(), name)
         summary = json.loads((self.out / "summary.json").read_text())
         self.assertEqual(summary["exit_code"], 0)
         self.assertEqual(summary["set"], ["aero.thrust_N=1.4e6"])
-        json.loads((self.out / "trace.json").read_text())
+        json.loads(gzip.decompress((self.out / "trace.json.gz").read_bytes()))
 
     def recorded(self, *more, ranks=0):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
@@ -110,7 +111,7 @@ class Program(Folder):
         small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
         done = self.run_case(*small, "--trace", "--windows", "2:2", scene=box, ranks=2)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        events = json.loads((self.out / "trace.json").read_text())["traceEvents"]
+        events = json.loads(gzip.decompress((self.out / "trace.json.gz").read_bytes()))["traceEvents"]
         self.assertGreater(self.check_trace(events), 10)   # messages between the ranks
 
     def test_a_trace_of_chosen_windows_has_these_alone(self):
@@ -120,7 +121,7 @@ class Program(Folder):
         for name, more in (("all", []), ("two", ["--windows", "2:3"])):
             out = self.out.parent / name
             self.assertEqual(self.run_case(*small, "--trace", *more, scene=box, out=out).returncode, 0)
-            events = json.loads((out / "trace.json").read_text())["traceEvents"]
+            events = json.loads(gzip.decompress((out / "trace.json.gz").read_bytes()))["traceEvents"]
             self.check_trace(events)
             tasks = [e for e in events if e["ph"] == "X" and e["name"].startswith("sea/pairs/")]
             replays[name] = sorted({e["args"]["replay"] for e in tasks})

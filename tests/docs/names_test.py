@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MADE = re.compile(r"^(/|~|runs/|run\d*/|build/|fields/|checkpoints/|perf/results/|spread/|OUT|DIR|RUN|NAME)|[A-Z]{3,}|[<>{}$*…]|\.\.\.|~")
 SUFFIXES = {"md", "cpp", "hpp", "py", "toml", "csv", "png", "css", "html", "txt", "nmf", "p3d", "json", "sh", "webm", "mp4", "def"}
 # Files of runs, of users and of other programs, named without a folder.
-OUTSIDE = {"scene.toml", "history.csv", "summary.json", "log.txt", "trace.json", "report.html", "comparison.html", "study.html", "study.json", "load_cases.csv", "spanwise.csv", "rotor.p3d", "rotor.nmf", "rotor.cgns",
+OUTSIDE = {"scene.toml", "history.csv", "summary.json", "log.txt", "trace.json.gz", "report.html", "comparison.html", "study.html", "study.json", "load_cases.csv", "spanwise.csv", "rotor.p3d", "rotor.nmf", "rotor.cgns",
            "picture.png", "film.mp4", "film.webm", "paraview.py", "geometry.xdmf", "wake.xdmf", "latest.json", "settings.json", "perf.json", "compile_commands.json", "exit.txt"}
 # Words in backticks that look like identifiers of ours and belong to a language, a library or a system.
 FOREIGN = re.compile(r"^(_|std|MPI|hypre|h5py|numpy|np|OMP|omp|HYPRE|H5|METIS|Eigen|toml|spdlog|fmt|CLI|TBB|tbb|vtk|pv|gcc|clang|git|apt|cmake|ctest|mpirun)\b")
@@ -25,7 +25,7 @@ OTHERS_KEYS = {"control.torque.tsr"}
 ELSEWHERE = {"tests/quasi_static_chain.cpp"}
 # What the program is built with: {find_package's name: (Debian's package, Spack's, word of the install guide)}.
 NEEDED = {"MPI": ("libopenmpi-dev", "mpi", "MPI"), "HDF5": ("libhdf5-openmpi-dev", "hdf5", "HDF5"), "Eigen3": ("libeigen3-dev", "eigen", "Eigen"),
-          "METIS": ("libmetis-dev", "metis", "METIS"), "HYPRE": ("libhypre-dev", "hypre", "hypre"), "CGNS": ("libcgns-dev", "cgns", "CGNS"),
+          "METIS": ("libmetis-dev", "metis", "METIS"), "ZLIB": ("zlib1g-dev", "zlib-api", "zlib"), "HYPRE": ("libhypre-dev", "hypre", "hypre"), "CGNS": ("libcgns-dev", "cgns", "CGNS"),
           "fmt": ("libfmt-dev", "fmt", "fmt"), "spdlog": ("libspdlog-dev", "spdlog", "spdlog"), "nlohmann_json": ("nlohmann-json3-dev", "nlohmann-json", "nlohmann-json"),
           "tomlplusplus": ("libtomlplusplus-dev", "tomlplusplus", "toml++"), "CLI11": ("libcli11-dev", "cli11", "CLI11"), "yaml-cpp": ("libyaml-cpp-dev", "yaml-cpp", "yaml-cpp")}
 OF_THE_COMPILER = {"OpenMP", "Threads"}

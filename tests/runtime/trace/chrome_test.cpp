@@ -3,6 +3,7 @@
 #include "runtime/trace/chrome.hpp"
 
 #include <unistd.h>
+#include <zlib.h>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
@@ -104,6 +105,24 @@ TEST_CASE("labels are escaped and an empty trace is valid", "[trace][fast]") {
   rank.ran(rank.node("m/\"x\"\\\n"), 0, 1);
   CHECK(events_of({rank.trace(1)}, "X")[0]["name"] == "m/\"x\"\\ ");
   CHECK(events_of({}, "X").empty());
+}
+
+TEST_CASE("a path that ends with .gz gets the same text compressed", "[trace][fast]") {
+  const std::string path = std::string(SPINDRIFT_BINARY_DIR) + "/chrome_test_" + std::to_string(getpid()) + ".json";
+  const auto text = [&](const std::string& name) {
+    write_chrome_trace(one_message(), name);
+    std::string all(1 << 20, ' ');
+    const gzFile file = gzopen(name.c_str(), "rb");  // reads text as it is
+    const int size = gzread(file, all.data(), unsigned(all.size()));
+    const bool compressed = gzdirect(file) == 0;
+    gzclose(file);
+    CHECK(compressed == name.ends_with(".gz"));
+    std::remove(name.c_str());
+    return all.substr(0, std::size_t(std::max(size, 0)));
+  };
+  const std::string plain = text(path);
+  CHECK(json::accept(plain));
+  CHECK(text(path + ".gz") == plain);
 }
 
 TEST_CASE("a file that cannot be written is an error that names it", "[trace][fast]") {

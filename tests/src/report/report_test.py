@@ -192,11 +192,11 @@ source = "Bak et al. 2013"
             _, parsed = self.page("none")
             self.assertEqual(parsed.sections, [])
         with self.subTest("empty files"):
-            for name in ("history.csv", "summary.json", "scene.toml", "log.txt", "trace.json"):
+            for name in ("history.csv", "summary.json", "scene.toml", "log.txt", "trace.json.gz"):
                 (self.folder / "none" / name).write_text("")
             self.page("none")
         with self.subTest("broken files"):
-            for name in ("summary.json", "scene.toml", "trace.json"):
+            for name in ("summary.json", "scene.toml", "trace.json.gz"):
                 (self.folder / "none" / name).write_bytes(b"{\xff <b>[")
             (self.folder / "none/history.csv").write_text("time_s,a.x_m\n0,1\n1,oops\n2,3,4\n3,5\n4,")
             _, parsed = self.page("none")

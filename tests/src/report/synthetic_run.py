@@ -1,5 +1,6 @@
 """A run directory such as `spindrift run` leaves, made of formulas: a floating turbine that settles under thrust.
 Used by report_test.py. By hand: synthetic_run.py DIR. SPDX-License-Identifier: Apache-2.0"""
+import gzip
 import json
 import pathlib
 import sys
@@ -113,7 +114,7 @@ def write(folder, table=None, rows=1501, scene=SCENE, log=LOG, trace=None, with_
     if log:
         (folder / "log.txt").write_text(log, encoding="utf-8")
     if trace:
-        (folder / "trace.json").write_text(json.dumps(trace))
+        (folder / "trace.json.gz").write_bytes(gzip.compress(json.dumps(trace).encode()))
     return folder
 
 

@@ -22,6 +22,7 @@ class Spindrift(CMakePackage):
     depends_on("eigen@3.4:")
     depends_on("metis@5:")
     depends_on("hypre@2.26:")
+    depends_on("zlib-api")
     depends_on("cgns +hdf5 +parallel", when="+cgns")
     depends_on("fmt@9:")
     depends_on("spdlog@1.10:")
