@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "runtime/mpi/environment.hpp"
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <thread>
+
+#include "runtime/trace/clock.hpp"
 
 #if defined(__has_feature)  // clang's
 #if __has_feature(address_sanitizer)
@@ -51,14 +55,28 @@ MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
   }
   MPI_Comm_rank(MPI_COMM_WORLD, &world_.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &world_.size);
+  if (world_.size > 1) MPI_Comm_dup(MPI_COMM_WORLD, &meeting_);
   if (world_.size > 1) heartbeat_ = std::make_unique<Heartbeat>(MPI_COMM_WORLD);
 }
 
 MpiEnvironment::~MpiEnvironment() {
   heartbeat_.reset();
+  if (meeting_ != MPI_COMM_NULL) MPI_Comm_free(&meeting_);
   MPI_Finalize();
   std::error_code ignored;
   if (!own_folder.empty()) std::filesystem::remove_all(own_folder, ignored);
+}
+
+bool MpiEnvironment::all_come(double most_s) const {
+  if (world_.size == 1) return true;
+  MPI_Request barrier;
+  MPI_Ibarrier(meeting_, &barrier);
+  int done = 0;
+  for (const std::int64_t end = Clock::now_ns() + std::int64_t(1e9 * most_s); done == 0 && Clock::now_ns() < end;) {
+    MPI_Test(&barrier, &done, MPI_STATUS_IGNORE);
+    if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return done != 0;
 }
 
 void MpiEnvironment::abort(int code) const {

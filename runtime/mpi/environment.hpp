@@ -26,6 +26,8 @@ class MpiEnvironment {
   MpiEnvironment& operator=(const MpiEnvironment&) = delete;
 
   const World& world() const { return world_; }
+  /// Whether all ranks come here within this time [s]. Where they do not, `abort` is all that is left.
+  bool all_come(double most_s) const;
   /// Ends all ranks at once with this exit code.
   [[noreturn]] void abort(int code) const;
   int rank() const { return world_.rank; }
@@ -33,6 +35,7 @@ class MpiEnvironment {
 
  private:
   World world_;
+  MPI_Comm meeting_ = MPI_COMM_NULL;  ///< of all_come, so that it meets no other message
   std::unique_ptr<Heartbeat> heartbeat_;
 };
 

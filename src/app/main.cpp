@@ -20,20 +20,26 @@ namespace {
 
 using namespace spindrift;
 
+/// Bad input that all ranks refuse is said once. What one rank alone refuses (a file that it cannot read) it says itself, and
+/// ends the others, which wait for it.
+int refused(const runtime::MpiEnvironment& mpi, const char* why) {
+  constexpr double longest_s = 5.0;  // that ranks are apart
+  const bool all = mpi.all_come(longest_s);
+  if (!all || mpi.rank() == 0) spdlog::error("{}", why);
+  if (!all) mpi.abort(app::bad_input);
+  return app::bad_input;
+}
+
 /// Runs a command; says what failed, to a person, and returns the exit code.
-int guarded(const std::function<int()>& command) {
+int guarded(const runtime::MpiEnvironment& mpi, const std::function<int()>& command) {
   struct Printed {
     ~Printed() { std::fflush(stdout); }  // what the command printed stands before what stopped it
   };
   try {
     const Printed printed;
     return command();
-  } catch (const scene::SceneError& e) {
-    spdlog::error("{}", e.what());
-    return app::bad_input;
-  } catch (const io::InputError& e) {
-    spdlog::error("{}", e.what());
-    return app::bad_input;
+  } catch (const scene::SceneError& e) { return refused(mpi, e.what()); } catch (const io::InputError& e) {
+    return refused(mpi, e.what());
   } catch (const NumericalFailure& e) {
     spdlog::error("{}", e.what());
     return app::numerical_failure;
@@ -136,7 +142,7 @@ int main(int argc, char** argv) {
     {
       const runtime::MpiEnvironment mpi(argc, argv);
       io::start_log(mpi.rank(), false);
-      code = guarded([&] { return command(mpi.world()); });
+      code = guarded(mpi, [&] { return command(mpi.world()); });
       if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one
     }
     app::finish();
