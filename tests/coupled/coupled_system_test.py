@@ -1,5 +1,6 @@
 """The coupled system as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
 Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: coupled_system_test.py SPINDRIFT [CLASS...]"""
+import gzip
 import json
 import os
 import subprocess
@@ -391,7 +392,7 @@ class SystemRun(System):
 
     def test_the_trace_shows_output_beside_the_next_window_and_data_between_air_bodies_and_sea(self):
         self.run_scene(PARTICLES + "[checkpoint]\ninterval_s = 0.1\n", "traced", "--trace", threads=2)
-        events = json.loads((self.path / "traced/trace.json").read_text())["traceEvents"]
+        events = json.loads(gzip.decompress((self.path / "traced/trace.json.gz").read_bytes()))["traceEvents"]
         rows_of, ends = {}, {}
         for event in events:
             row = event["pid"], event.get("tid")
@@ -491,6 +492,18 @@ class Ramp(System):
 
     def test_twenty_restarts_over_a_sea_of_particles_change_no_bit(self):
         self.check_restarts(PARTICLES, 2.0, 0.1)
+
+
+class ManyRanks(System):
+    """More ranks than cores, of tiles small enough that each has some."""
+
+    def test_three_eight_and_64_ranks_have_the_bits_of_one(self):
+        settings = ["aero.flow.tile_cells=256", "aero.grid.sectors='all'", "aero.flow.preconditioner='coarse'", "time.end_s=0.2"]
+        self.spindrift(PARTICLES, "one", settings=settings)
+        for ranks in (3, 8, 64):
+            with self.subTest(ranks=ranks):
+                self.spindrift(PARTICLES, "many", "--overwrite", settings=settings, ranks=ranks)
+                self.assertEqual(self.text("one"), self.text("many"))
 
 
 class Placement(System):
