@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "src/aero/turbine.hpp"
+#include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/sea/wave_model.hpp"
@@ -148,7 +149,35 @@ bool same_across(const Scenario& s) {
          std::ranges::all_of(o.damping_zones, [](const sea::DampingZoneOptions& zone) { return zone.axis == "x"; });
 }
 
-/// Of [sea.particles], [sea.initial].
+/// Half as much water at the sides of a tank as round the bodies in it.
+Overrides nearer_tank_sides(const Scenario& s) {
+  if (s.sea.particles->planar() || !s.sea.tank->meshes.empty()) return {};
+  Eigen::AlignedBox3d round;
+  for (const auto& body : s.bodies)
+    if (Eigen::AlignedBox3d box = bodies::bounds(body.options); !box.isEmpty())
+      round.extend(box.translate(body.options.displacement_m));
+  if (round.isEmpty()) return {};
+  auto [low, high] = s.sea.tank->y_m;
+  low = std::max(low, 0.5 * (low + round.min().y())), high = std::min(high, 0.5 * (high + round.max().y()));
+  return {fmt::format("sea.tank.y_m=[{:.6g},{:.6g}]", low, high)};
+}
+
+/// The keys of a sea of particles, for one of strips; nothing where a body has shapes that strips do not know.
+Overrides strips(const Scenario& s, const scene::Document& document) {
+  bool cylinders = false;
+  for (const auto& body : s.bodies) {
+    const bodies::BodyOptions& o = body.options;
+    if (!o.boxes.empty() || !o.spheres.empty() || !o.meshes.empty()) return {};
+    cylinders = cylinders || !o.cylinders.empty();
+  }
+  if (!cylinders || s.sea.particles->planar()) return {};
+  return without(document,
+                 {"sea.particles", "sea.tank", "sea.water", "sea.obstacles", "sea.wavemaker", "sea.damping_zones", "sea.initial",
+                  "sea.gauges", "sea.probes", "sea.sensors", "sea.fields", "coupling.placement", "coupling.air_ranks"}) +
+         Overrides{"sea.model=morison"};
+}
+
+/// Of [sea.particles], [sea.tank], [sea.initial], [sea].
 const std::vector<Choice>& of_particles() {
   static const std::vector<Choice> all{
       {"particles 1.25 times as far",
@@ -196,6 +225,8 @@ const std::vector<Choice>& of_particles() {
          return without(document, {"sea.tank.y_m", "sea.tank.sides_y"}) +
                 Overrides{"sea.particles.dimensions=\"2\"", fmt::format("sea.particles.width_m={}", tank.y_m[1] - tank.y_m[0])};
        }},
+      {"nearer sides of the tank", [](const Scenario& s, const scene::Document&) { return nearer_tank_sides(s); }},
+      {"strips for the particles", strips},
   };
   return all;
 }

@@ -31,7 +31,8 @@ SCENES = {
     "leble_barakos/flexible_tower": (["platform.pitch_deg", "rotor.thrust_N"], ["time.end_s=60.0"]),
     "validation/oc3_heave_decay/oc3_heave_decay": (["spar.pitch_deg", "line_1.tension_N"], SEA_STATE),
     "control/dtu_10mw_fixed": (["rotor.power_W", "rotor.thrust_N"], []),
-    # Particles: alone, with a body, in 3-D that could be 2-D.
+    # Particles: alone, with bodies, in 3-D that could be 2-D.
+    "leble_barakos/case1_demo": (["platform.pitch_deg", "line_downwind.tension_N"], ["time.end_s=1.0", "sea.initial.settle_s=0.5"]),
     "validation/dam_break/koshizuka_oka": (["at_1_5.elevation_m", "corner.pressure_Pa"], []),
     "validation/dam_break/koshizuka_oka, 3-D": (["at_1_5.elevation_m", "corner.pressure_Pa"], [
         'sea.particles.dimensions="3"', "sea.tank.y_m=[0.0, 0.3]", "time.end_s=0.2"]),
