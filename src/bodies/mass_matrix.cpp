@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/bodies/mass_matrix.hpp"
 
+#include <algorithm>
+
 namespace spindrift::bodies {
 
 MassMatrix::MassMatrix(std::span<const Body> bodies, std::span<const LoadSource> sources)
@@ -106,25 +108,26 @@ double MassMatrix::added_mass_power(std::span<const Motion> motions, std::span<c
 
 void MassMatrix::add_reactions(double t, std::span<const Motion> motions, std::span<const Vector6> rates,
                                std::span<std::vector<Wrench>> by_source) {
+  const bool one_source = std::ranges::count_if(sources_, [](const LoadSource& s) { return bool(s.added_mass); }) == 1;
+  std::size_t pair = 0;
   for (std::size_t s = 0; s < sources_.size(); ++s) {
     const auto react = [&](int on, const Matrix6& block, int by) {
       const Vector6 reaction = block * rates[std::size_t(by)];
       by_source[s][std::size_t(on)].force -= reaction.head<3>();
       by_source[s][std::size_t(on)].moment -= reaction.tail<3>();
     };
-    if (const auto& coupling = sources_[s].coupling) {
-      of_one_source_.assign(coupling->pairs.size(), Matrix6::Zero());
-      coupling->blocks(t, motions, of_one_source_);
-      for (std::size_t p = 0; p < coupling->pairs.size(); ++p) {
-        const auto [i, j] = coupling->pairs[p];
-        react(i, of_one_source_[p], j);
-        react(j, of_one_source_[p].transpose(), i);
+    if (const auto& coupling = sources_[s].coupling)
+      for (const auto [i, j] : coupling->pairs) {
+        react(i, between_[pair], j);
+        react(j, between_[pair].transpose(), i);
+        ++pair;
       }
-    }
     if (!sources_[s].added_mass) continue;
-    of_one_source_.assign(bodies_.size(), Matrix6::Zero());
-    sources_[s].added_mass(t, motions, of_one_source_);
-    for (std::size_t b = 0; b < bodies_.size(); ++b) react(int(b), of_one_source_[b], int(b));
+    if (!one_source) {
+      of_one_source_.assign(bodies_.size(), Matrix6::Zero());
+      sources_[s].added_mass(t, motions, of_one_source_);
+    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b) react(int(b), one_source ? added_[b] : of_one_source_[b], int(b));
   }
 }
 

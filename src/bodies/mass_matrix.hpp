@@ -28,7 +28,7 @@ class MassMatrix {
 
   /// Of the forces -A a [W]; rates: of each body's velocity and spin, earth axes.
   double added_mass_power(std::span<const Motion> motions, std::span<const Vector6> rates) const;
-  /// Adds -A a to the loads of each source at the motions gathered last.
+  /// Adds -A a to the loads of each source; `t` and `motions`: those gathered last.
   void add_reactions(double t, std::span<const Motion> motions, std::span<const Vector6> rates,
                      std::span<std::vector<Wrench>> by_source);
 
