@@ -214,9 +214,9 @@ bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen
   mass.multiply(mechanism.solved().bias, inertial);
   force -= inertial;
   condensed_force.noalias() = mechanism.solved().tangent.transpose() * force;
-  if (mechanism.freedoms() == 0) return true;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     if (!force.segment<6>(Eigen::Index(6 * b)).allFinite()) return fail(StepReport::Trouble::not_finite, int(b));
+  if (mechanism.freedoms() == 0) return true;
   cholesky.compute(mass.condense(mechanism.solved().tangent));
   if (cholesky.info() != Eigen::Success) return fail(StepReport::Trouble::mass, -1);
   acceleration = condensed_force;

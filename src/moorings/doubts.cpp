@@ -57,14 +57,21 @@ void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOpti
     doubt(fmt::format(".sections[{}].weight_N_m", n), line.sections[n].weight_N_m, line.sections[n].axial_stiffness_N);
 }
 
-/// A line at rest is lifted by all of a float, also where it would lie at the surface.
+/// Weights and floats of a line are less than what it holds, and a line at rest is lifted by all of a float, also where it would
+/// lie at the surface.
 void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
   if (line.sections.empty() || around.depth_m < 0.0) return;
   const CompositeParts parts = composite_parts(line, around.water_density_kg_m3, around.gravity_m_s2);
   const std::vector<double> heights =
       LineComposite(parts.sections, parts.hung, line.bed_friction, line.bed_contact).joint_heights(line.span());
   for (std::size_t joint = 0; joint < heights.size(); ++joint)
-    if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
+    if (const double hung = parts.hung[joint]; around.weight_N > 0.0 && std::abs(hung) > 0.5 * around.weight_N)
+      doubts.push_back({at + ".clumps",
+                        fmt::format("{} of {:.3g} N in water at {:.4g} m", hung < 0.0 ? "a lift" : "a weight", std::abs(hung),
+                                    parts.joints[joint]),
+                        fmt::format("up to half the weight of all bodies, {:.3g} N", around.weight_N),
+                        "look at volume_m3 and mass_kg, and at their units"});
+    else if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
       doubts.push_back({at + ".clumps",
                         fmt::format("the float at {:.4g} m is {:.4g} m above the surface at the start", parts.joints[joint], z),
                         "floats under water: this model has all of their lift at any height",

@@ -176,6 +176,18 @@ TEST_CASE("a load that is not a number stops the step, names the body and leaves
   CHECK(state.motions[1].position.x() == 1.0);
 }
 
+TEST_CASE("a load that is not a number is named on bodies that cannot move, too", "[bodies][fast]") {
+  std::vector<Body> bodies{examples::body("held", 1, {1, 1, 1}, {0, 0, 0})};
+  const std::vector<Joint> joints{examples::joint("foundation", JointType::fixed, earth, 0, {0, 0, 0}, {1, 0, 0})};
+  System system(bodies, joints,
+                {{"broken", [](double t, auto, std::span<Wrench> w) { w[0].force.x() = t > 0.5 ? NAN : 1.0; }, {}}});
+  BodiesState state = examples::start(system);
+  examples::run(system, state, 0.1, 5);
+  CHECK(system.evaluate(state, 0.5).report.ok());
+  CHECK_THAT(system.describe(system.evaluate(state, 0.6).report), Catch::Matchers::Contains("'held'"));
+  CHECK(system.advance(state, 0.1, 1).trouble == StepReport::Trouble::not_finite);
+}
+
 TEST_CASE("each integrator shows its order on a constrained spinning system", "[bodies][fast]") {
   const auto [integrator, order] = GENERATE(
       table<Integrator, double>({{Integrator::rk4, 4.0}, {Integrator::explicit_euler, 1.0}, {Integrator::symplectic, 2.0}}));
