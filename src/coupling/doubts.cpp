@@ -487,6 +487,18 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
     }
 }
 
+/// The axes of a boundary-element code begin at its body.
+void doubt_origin(scene::Doubts& doubts, const Scenario& s) {
+  if (!s.sea.potential) return;
+  const auto body = std::ranges::find(s.bodies, s.sea.potential->body, &scene::Named<bodies::BodyOptions>::name);
+  if (body == s.bodies.end()) return;
+  const Eigen::Vector3d& point = s.sea.potential->point_m;
+  const double aside = (point - body->options.centre_m).head<2>().norm(), usual = std::max(50.0, bodies::extent(body->options));
+  if (aside > usual)
+    doubts.push_back({"sea.potential.point_m", fmt::format("{:.4g} m aside of body {}", aside, body->name),
+                      fmt::format("up to {:.3g} m", usual), "look at its unit: m, and that it is in the scene's coordinates"});
+}
+
 /// Of bodies, lines, turbine, sea and times, with the bodies where `motions` has them.
 scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();
@@ -508,7 +520,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
-  if (s.has_sea()) doubt_damping(all, s);
+  if (s.has_sea()) doubt_damping(all, s), doubt_origin(all, s);
   std::set<std::string> turbines;
   for (const Scenario& one : by_rotor(s))
     if (!one.rotor.turbine.empty() && turbines.insert(one.rotor.turbine).second)

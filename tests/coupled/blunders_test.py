@@ -17,7 +17,7 @@ SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barak
           "naca": "validation/naca0012/family.toml", "re100": "validation/cylinder_re100/cylinder.toml", "section": "tutorials/wing_section.toml",
           "pitching": "validation/pitching_naca0012/pitching.toml", "rotor_demo": "leble_barakos/rotor_demo.toml", "disc": "validation/actuator/disc.toml",
           "linescene": "validation/actuator/line.toml", "tower": "validation/dtu_tower/dtu_tower.toml", "bridles": "tutorials/spar_on_bridles.toml",
-          "standing": "validation/standing_wave/standing_wave.toml", "sections": "../tests/extremes/sections.toml"}
+          "standing": "validation/standing_wave/standing_wave.toml", "sections": "../tests/extremes/sections.toml", "potential": "../tests/extremes/potential.toml"}
 BLUNDERS = tomllib.loads((ROOT / "tests/extremes/blunders.toml").read_text(encoding="utf-8"))["blunder"]
 
 
