@@ -15,6 +15,7 @@ int halved(int n, int step, int least) { return std::max(least, (n / 2 + step - 
 
 ResolvedRotorSetup coarser(const ResolvedRotorSetup& setup) {
   ResolvedRotorSetup s = setup;
+  s.ranks_may_idle = true;
   RotorGridOptions& g = s.grid;
   g.resolution *= 0.5;
   const auto half = [](std::optional<int>& n, int step, int least) {

@@ -34,8 +34,8 @@ void check_aero(const AeroOptions& o, const scene::Report& report) {
   }
   constexpr double least = 2.0;  // half of it makes a grid within the limits of quality at any pitch
   if (o.flow && o.flow->coarse_steps.value_or(0) > 0 && o.grid && o.grid->resolution < least)
-    report("grid.resolution",
-           fmt::format("= {} must be at least {} with flow.coarse_steps, whose grid has half of it", o.grid->resolution, least));
+    report("grid.resolution", fmt::format("must be at least {} with flow.coarse_steps, whose grid has half of it; it is {}",
+                                          least, o.grid->resolution));
   if (!o.resolves_air() && o.flow)
     report("flow", "has no effect: aero.model is none of \"blade_resolved\", \"actuator_disc\", \"actuator_line\"");
   if (o.dynamic_inflow == "free_vortex" && o.dynamic_stall == "beddoes_leishman")

@@ -118,7 +118,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   Tiling tiling = make_tiling(solved_on, blades, tile_limits(setup.flow));
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
-  require_ranks(std::size_t(tiling.size()), ranks);
+  if (!setup.ranks_may_idle) require_ranks(std::size_t(tiling.size()), ranks);
   std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
   if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);

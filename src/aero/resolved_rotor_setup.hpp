@@ -19,6 +19,7 @@ struct ResolvedRotorSetup {
   double air_density = 1.225;                      ///< [kg/m3]
   double dt = 0.0;                                 ///< physical step [s]; steady scenes have none
   WindProfile profile = {};                        ///< of the wind over height
+  bool ranks_may_idle = false;                     ///< more ranks than tiles are not refused: of a coarser grid to begin with
 };
 
 /// Rules between [rotor], [aero.grid], [aero.flow] and the wind; problems go to the document.

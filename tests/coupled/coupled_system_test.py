@@ -505,6 +505,12 @@ class ManyRanks(System):
                 self.spindrift(PARTICLES, "many", "--overwrite", settings=settings, ranks=ranks)
                 self.assertEqual(self.text("one"), self.text("many"))
 
+    def test_more_ranks_than_a_coarser_start_has_tiles_have_the_bits_of_one(self):
+        settings = ["aero.grid.resolution=2.0", "aero.flow.coarse_steps=2", "aero.flow.drop=0", "time.end_s=2.0"]
+        for name, ranks in (("one", 1), ("many", 40)):
+            self.spindrift(ALONE, name, settings=settings, ranks=ranks)
+        self.assertEqual(self.text("one"), self.text("many"))
+
 
 class Placement(System):
     def check_split(self, text, settings, until):
