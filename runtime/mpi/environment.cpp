@@ -67,16 +67,17 @@ MpiEnvironment::~MpiEnvironment() {
   if (!own_folder.empty()) std::filesystem::remove_all(own_folder, ignored);
 }
 
-bool MpiEnvironment::all_come(double most_s) const {
-  if (world_.size == 1) return true;
-  MPI_Request barrier;
-  MPI_Ibarrier(meeting_, &barrier);
-  int done = 0;
-  for (const std::int64_t end = Clock::now_ns() + std::int64_t(1e9 * most_s); done == 0 && Clock::now_ns() < end;) {
-    MPI_Test(&barrier, &done, MPI_STATUS_IGNORE);
+std::optional<int> MpiEnvironment::smallest_of_all(int mine, double most_s) const {
+  if (world_.size == 1) return mine;
+  int smallest = mine, done = 0;
+  MPI_Request request;
+  MPI_Iallreduce(&mine, &smallest, 1, MPI_INT, MPI_MIN, meeting_, &request);
+  const double end = 1e-9 * double(Clock::now_ns()) + most_s;
+  while (done == 0 && 1e-9 * double(Clock::now_ns()) < end) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     if (done == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  return done != 0;
+  return done != 0 ? std::optional(smallest) : std::nullopt;
 }
 
 void MpiEnvironment::abort(int code) const {

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 
 #include "runtime/mpi/heartbeat.hpp"
 
@@ -26,8 +27,8 @@ class MpiEnvironment {
   MpiEnvironment& operator=(const MpiEnvironment&) = delete;
 
   const World& world() const { return world_; }
-  /// Whether all ranks come here within this time [s]. Where they do not, `abort` is all that is left.
-  bool all_come(double most_s) const;
+  /// The smallest of what all ranks bring; nothing where not all have come within this time [s], and `abort` is all that is left.
+  std::optional<int> smallest_of_all(int mine, double most_s) const;
   /// Ends all ranks at once with this exit code.
   [[noreturn]] void abort(int code) const;
   int rank() const { return world_.rank; }
@@ -35,7 +36,7 @@ class MpiEnvironment {
 
  private:
   World world_;
-  MPI_Comm meeting_ = MPI_COMM_NULL;  ///< of all_come, so that it meets no other message
+  MPI_Comm meeting_ = MPI_COMM_NULL;  ///< of smallest_of_all, so that it meets no other message
   std::unique_ptr<Heartbeat> heartbeat_;
 };
 

@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <limits>
+#include <string>
 #include <string_view>
 
 #include "kernels/base/failure.hpp"
@@ -20,26 +22,34 @@ namespace {
 
 using namespace spindrift;
 
-/// Bad input that all ranks refuse is said once. What one rank alone refuses (a file that it cannot read) it says itself, and
-/// ends the others, which wait for it.
-int refused(const runtime::MpiEnvironment& mpi, const char* why) {
-  constexpr double longest_s = 5.0;  // that ranks are apart
-  const bool all = mpi.all_come(longest_s);
-  if (!all || mpi.rank() == 0) spdlog::error("{}", why);
-  if (!all) mpi.abort(app::bad_input);
-  return app::bad_input;
+/// The end of a command on all ranks; `refusal`: why this one refused its input, empty where it did not. Bad input is said once,
+/// by the first rank that refused it; the others may be done, or refuse the same. A rank whose others go on says it by itself and
+/// ends them: they may wait for it.
+void end_together(const runtime::MpiEnvironment& mpi, const std::string& refusal) {
+  constexpr double longest_s = 5.0, for_ever_s = 1e9;
+  constexpr int content = std::numeric_limits<int>::max();
+  const bool refuses = !refusal.empty();
+  const int own = refuses ? io::log_rank() : content;
+  const std::optional<int> first = mpi.smallest_of_all(own, refuses ? longest_s : for_ever_s);
+  if (refuses && first.value_or(own) == own) spdlog::error("{}", refusal);
+  if (!first) mpi.abort(app::bad_input);
 }
 
-/// Runs a command; says what failed, to a person, and returns the exit code.
-int guarded(const runtime::MpiEnvironment& mpi, const std::function<int()>& command) {
+/// Runs a command; says what failed, to a person, and returns the exit code. Why it refused its input is in `refusal`,
+/// still to be said.
+int guarded(const std::function<int()>& command, std::string& refusal) {
   struct Printed {
     ~Printed() { std::fflush(stdout); }  // what the command printed stands before what stopped it
   };
   try {
     const Printed printed;
     return command();
-  } catch (const scene::SceneError& e) { return refused(mpi, e.what()); } catch (const io::InputError& e) {
-    return refused(mpi, e.what());
+  } catch (const scene::SceneError& e) {
+    refusal = e.what();
+    return app::bad_input;
+  } catch (const io::InputError& e) {
+    refusal = e.what();
+    return app::bad_input;
   } catch (const NumericalFailure& e) {
     spdlog::error("{}", e.what());
     return app::numerical_failure;
@@ -142,8 +152,10 @@ int main(int argc, char** argv) {
     {
       const runtime::MpiEnvironment mpi(argc, argv);
       io::start_log(mpi.rank(), false);
-      code = guarded(mpi, [&] { return command(mpi.world()); });
+      std::string refusal;
+      code = guarded([&] { return command(mpi.world()); }, refusal);
       if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one
+      end_together(mpi, refusal);
     }
     app::finish();
     return code;

@@ -19,6 +19,7 @@ namespace spindrift::io {
 namespace {
 
 std::atomic<std::int64_t> warnings{0};
+int rank_of_log = 0;
 
 /// Prints above the progress line; warnings and errors go to standard error.
 class ConsoleSink : public spdlog::sinks::base_sink<std::mutex> {
@@ -59,7 +60,7 @@ class ConsoleFormatter : public spdlog::formatter {
 }  // namespace
 
 void start_log(int rank, bool quiet) {
-  warnings = 0;
+  warnings = 0, rank_of_log = rank;
   auto sink = std::make_shared<ConsoleSink>();
   sink->set_formatter(std::make_unique<ConsoleFormatter>(rank == 0 ? "" : "rank " + std::to_string(rank) + ": "));
   sink->set_level(rank != 0 ? spdlog::level::err : quiet ? spdlog::level::warn : spdlog::level::info);
@@ -79,6 +80,8 @@ void log_to_file(int rank, const std::filesystem::path& path) {
     spdlog::default_logger()->flush_on(spdlog::level::info);
   } catch (const spdlog::spdlog_ex& error) { throw MachineFailure("cannot open the log: " + std::string(error.what())); }
 }
+
+int log_rank() { return rank_of_log; }
 
 std::int64_t warnings_logged() { return warnings; }
 

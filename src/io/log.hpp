@@ -12,6 +12,9 @@ namespace spindrift::io {
 /// `quiet` leaves warnings and errors.
 void start_log(int rank, bool quiet);
 
+/// As start_log() was told last.
+int log_rank();
+
 /// From now on also to `path` (rank 0; appended to, so that a restart's lines follow the first run's). Throws MachineFailure.
 void log_to_file(int rank, const std::filesystem::path& path);
 

@@ -31,6 +31,23 @@ class Program(Folder):
         self.assertEqual(summary["set"], ["aero.thrust_N=1.4e6"])
         json.loads(gzip.decompress((self.out / "trace.json.gz").read_bytes()))
 
+    def test_bad_input_is_said_once_by_whichever_rank_meets_it(self):
+        absent = self.path / "absent.toml"
+        for command in ("run", "import"):   # all ranks read a scene, one alone what is imported
+            with self.subTest(command):
+                done = spindrift(command, absent, "--out", self.out, ranks=3)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
+                self.assertIn("absent.toml", done.stderr)
+                self.assertNotIn("MPI_ABORT", done.stderr)
+        # A rank that is alone with it does not let the others wait.
+        began = time.monotonic()
+        done = spindrift("import", absent, "--out", self.out, ":", "-n", 1, PROGRAM, "run", CASE1, "--no-report", "--out", self.path / "waits", ranks=1, timeout=60)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
+        self.assertIn("absent.toml", done.stderr)
+        self.assertLess(time.monotonic() - began, 40.0)
+
     def recorded(self, *more, ranks=0):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"
