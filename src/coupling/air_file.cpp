@@ -11,7 +11,23 @@
 namespace spindrift::coupling {
 
 namespace {
-constexpr const char* set_up_name = "flow/set_up";
+
+constexpr const char *set_up_name = "flow/set_up", *cut_name = "flow/cut";
+
+/// Block and cells of each tile.
+std::vector<double> cut_of(const aero::Tiling& tiling) {
+  std::vector<double> cut;
+  for (const aero::Tile& tile : tiling.tiles)
+    cut.insert(cut.end(), {double(tile.block), double(tile.ni), double(tile.nj), double(tile.nk)});
+  return cut;
+}
+
+}  // namespace
+
+void require_same_tiles(const io::CheckpointReader& file, const aero::Tiling& tiling) {
+  if (file.has(cut_name) && file.read<double>(cut_name) != cut_of(tiling))
+    throw io::InputError(
+        fmt::format("{}: its air was cut into other tiles: aero.flow.tile_cells was another", file.path().string()));
 }
 
 AirFile::AirFile(aero::FlowSolver& solver, const runtime::World& world) : solver_(solver), world_(world) {
@@ -32,6 +48,9 @@ std::vector<SavedArray> AirFile::arrays() const {
   }
   std::vector<SavedArray> arrays;  // not by a list, which copies
   arrays.push_back(std::move(march)), arrays.push_back(std::move(tiles));
+  const std::vector<double> cut = cut_of(solver_.grid().tiling());
+  arrays.push_back({cut_name, std::int64_t(cut.size()), {}});
+  if (world_.rank == 0) arrays.back().pieces.push_back({0, cut});
   if (!solver_.restart().keeps_set_up()) return arrays;
   const std::vector<std::int64_t> starts = set_up_starts();
   aero::SetUpNote note = solver_.restart().save_set_up();
@@ -59,6 +78,7 @@ void AirFile::read(const io::CheckpointReader& file) const {
   if (file.size("flow/tiles") != total_)
     throw io::InputError(
         fmt::format("{}: its air has {} values, this one {}", file.path().string(), file.size("flow/tiles"), total_));
+  require_same_tiles(file, solver_.grid().tiling());
   for (int n = 0; n < int(solver_.tiles().size()); ++n) {
     std::vector<double> values(solver_.restart().size(n));
     const io::Slice<double> slice{starts_[std::size_t(solver_.tiles()[std::size_t(n)].index)], values};

@@ -12,12 +12,15 @@
 
 namespace spindrift::coupling {
 
+/// Throws io::InputError where the file's air was cut into other tiles: its values would go to other cells.
+void require_same_tiles(const io::CheckpointReader& file, const aero::Tiling& tiling);
+
 class AirFile {
  public:
   /// The solver is to outlive it. `world`: of those that have the air; all members are for all of them together.
   AirFile(aero::FlowSolver& solver, const runtime::World& world);
   std::vector<SavedArray> arrays() const;
-  /// Throws io::InputError where the file's air has another size.
+  /// Throws io::InputError where the file's air has another size or other tiles.
   void read(const io::CheckpointReader& file) const;
 
  private:

@@ -14,6 +14,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/rotor_grid/options.hpp"
+#include "src/coupling/air_file.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/printed.hpp"
 
@@ -189,6 +190,7 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
           fmt::format("its grid is another one ({:.0f} nodes, here {:.0f}) although [aero.grid] is the same: the turbine's file "
                       "or the rotor's speed differs",
                       grid[0], mine[0]));
+  require_same_tiles(file, rotor.store().tiling());
   const std::vector<double> pose = file.read<double>(pose_name);
   if (std::abs(pose[9] - start.speed) > 0.01 * std::abs(start.speed))
     refuse(fmt::format("its rotor turned at {:.4g} rpm, this one turns at {:.4g}", pose[9] / rad_s_per_rpm,

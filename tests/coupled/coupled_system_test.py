@@ -584,6 +584,12 @@ class Saved(System):
     def from_air(self, name):
         return ENGINEERING.replace("air_steps = 10", f'air = "{self.path / name}"')
 
+    def test_air_in_other_tiles_is_refused(self):
+        self.spindrift(ENGINEERING, "saved", "--until", 0.2)
+        other = ["aero.flow.tile_cells=256"]
+        said = self.spindrift(ENGINEERING, "saved", "--restart", "--allow-change", "aero.flow.tile_cells", settings=other, code=2)
+        self.assertIn("was cut into other tiles", said)
+
     def test_air_of_a_rotor_alone_starts_a_coupled_run_as_if_it_had_settled_there(self):
         settled = ["start.air_steps=20", "time.end_s=0.3"]
         self.spindrift(ENGINEERING, "settled", settings=settled)
