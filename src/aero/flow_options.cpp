@@ -126,11 +126,12 @@ const scene::Section<FlowOptions>& flow_section() {
           .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)",
                   "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
                   between(0.0, 1e6))
-          .number("load_change", &FlowOptions::load_change, "-",
-                  "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at. By default 0.001 for a "
-                  "steady "
-                  "resolved rotor, whose far wake settles hundreds of pseudo-steps after its loads, if drop is not 0; else 0.",
-                  between(0.0, 1.0))
+          .number(
+              "load_change", &FlowOptions::load_change, "-",
+              "Relative change of the force over 20 pseudo-steps that ends a march; 0: not looked at. By default 0.001 for a "
+              "steady resolved rotor, whose far wake settles hundreds of pseudo-steps after its loads, if drop is not 0; else 0. "
+              "Steps with a CFL number below 1 do not count.",
+              between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.",
                    between(1, 1e6))
           .only_if("time", {"bdf1", "bdf2"})
@@ -163,9 +164,9 @@ const scene::Section<FlowOptions>& flow_section() {
                     "scene.toml"}},
                   "Approximate inverse that the linear solver works with; docs/user/air_choices.md says which for what.")
           .integer("tile_cells", &FlowOptions::tile_cells, "-",
-                   "Most cells of a tile, as far as 16 lines of cells from a wall may be that few. A tile is a task, and is "
-                   "factorised by "
-                   "itself: smaller ones suit more cores, and take more iterations. Changes the last digits.",
+                   "Most cells of a tile, as far as 16 lines of cells (8 in the plane) from a wall through their block have no "
+                   "more. A tile is a task and is factorised by itself: smaller ones suit more cores, and take more iterations. "
+                   "Changes the last digits.",
                    between(256, 1e6))
           .integer("group_cells", &FlowOptions::group_cells, "-",
                    "Longest side of a group of cells of the coarse correction; 0: a group is a whole tile.", between(0, 64))

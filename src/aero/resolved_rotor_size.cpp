@@ -73,8 +73,7 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
 
 /// Of a block cut as tiling.cpp does; which direction is i matters little.
 double block_bytes(const Kind& kind, std::array<int, 3> n) {
-  const auto [j, k] = tile_across(std::min(n[0], kind.tiles.normal), kind.tiles);
-  const std::array<int, 3> target{kind.tiles.normal, j, k};
+  const Index target = tile_target(n[0], false, false, kind.tiles);
   std::array<double, 3> parts;
   std::array<int, 3> size;
   for (std::size_t d = 0; d < 3; ++d) {

@@ -40,7 +40,7 @@ class ActuatorAir final : public MarchingAir {
     const aero::FlowOptions& flow = *scenario().aero.flow;
     const aero::MultiBlockGrid grid = aero::flow_grid(flow);
     for (const aero::Block& block : grid.blocks) cells_ += double(block.ni) * block.nj * block.nk;
-    aero::Tiling tiling = aero::make_tiling(grid, aero::wall_patches(flow), aero::tile_limits(flow));
+    aero::Tiling tiling = aero::flow_tiling(flow, grid);
     aero::require_ranks(std::size_t(tiling.size()), world.size);
     conditions_ = aero::patch_conditions(flow, tiling);
     store_ = aero::flow_tiles(grid, std::move(tiling), flow, world);

@@ -74,7 +74,7 @@ struct MarchState {
   Residuals now, first;        ///< `first`: of its start, or of what stands for that
   double mass_residual = 0.0;  ///< root mean square of the mass balances [kg/s]
   PseudoStep last;
-  double load_swing = 1.0;   ///< change of the loads over the last load_window steps, of the larger; 1: too few steps are known
+  double load_swing = 1.0;   ///< change of the loads over the last load_window states, of the larger; 1: too few are known
   int still_for = 0;         ///< pseudo-steps since the flux balance last came to half
   bool matrix_free = false;  ///< the products of the next step
   /// Whether the matrix is to be made anew: always where it is the operator; else after refresh_every steps, or sooner where the

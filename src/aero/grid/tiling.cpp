@@ -169,26 +169,17 @@ Index tile_axes(int direction, bool planar) {
 
 }  // namespace
 
-std::array<int, 2> tile_across(int line_cells, const TilingOptions& o) {
-  int j = o.across_j, k = o.across_k;
-  while (long(line_cells) * j * k > o.max_cells && (j > 4 || k > 4)) (j >= k ? j : k) /= 2;
-  return {j, k};
+Index tile_target(int line_cells, bool of_wall, bool planar, const TilingOptions& o) {
+  int i = of_wall ? line_cells : std::min(line_cells, planar ? o.planar_normal : o.normal);
+  int j = planar ? o.planar_across : o.across_j, k = planar ? 1 : o.across_k;
+  const auto too_large = [&] { return long(i) * j * k > o.max_cells; };
+  const int least = planar ? 8 : 4;
+  while (too_large() && (j > least || k > least)) (j >= k ? j : k) /= 2;
+  while (too_large() && !of_wall && i > 2 * least) i /= 2;
+  return {i, j, k};
 }
 
 namespace {
-
-/// Largest tile in its own directions.
-Index tile_target(const Lines& lines, int line_cells, bool planar, const TilingOptions& o) {
-  if (planar) {
-    const int i = lines.of_wall ? line_cells : std::min(line_cells, o.planar_normal);
-    int j = o.planar_across;
-    while (long(i) * j > o.max_cells && j > 8) j /= 2;
-    return {i, j, 1};
-  }
-  const int i = lines.of_wall ? line_cells : std::min(line_cells, o.normal);
-  const auto [j, k] = tile_across(i, o);
-  return {i, j, k};
-}
 
 /// At least state_ghosts cells each: a neighbour's ghost layers come from one tile.
 int pieces(int n, int largest) { return std::max(1, std::min((n + largest - 1) / largest, n / state_ghosts)); }
@@ -213,7 +204,7 @@ Rows cut(const Block& block, int number, const Lines& lines, bool planar, const 
   const int first = int(tiles.size());
   const IndexMap directions{tile_axes(lines.direction, planar), {}};
   const Index cells = block.cells();
-  const Index target = tile_target(lines, cells[lines.direction], planar, options);
+  const Index target = tile_target(cells[lines.direction], lines.of_wall, planar, options);
   Index n, parts;
   for (int d = 0; d < 3; ++d) n[d] = cells[directions.target(d)], parts[d] = pieces(n[d], target[d]);
   for (int k = 0; k < parts[2]; ++k)

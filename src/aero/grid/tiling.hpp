@@ -27,8 +27,8 @@ struct TilingOptions {
   std::vector<std::string> sticky = {};  ///< patches that the gas sticks to: Tile::along_wall
 };
 
-/// The largest tile across lines of so many cells from a wall, of a grid in three dimensions.
-std::array<int, 2> tile_across(int line_cells, const TilingOptions& options);
+/// The largest tile in its own directions, of a block with so many cells along i: lines of a wall stay whole.
+Index tile_target(int line_cells, bool of_wall, bool planar, const TilingOptions& options);
 
 /// A box of cells of one block, seen in directions of its own: from tile to block indices by `to_block`.
 struct Tile {

@@ -61,6 +61,13 @@ TEST_CASE("tiles have no more cells than they may, and lines from a wall are who
     CHECK(tiling.size() >= 24 * 32 * 64 / most);
     CHECK(tiling.size() <= 4 * 24 * 32 * 64 / most);
   }
+  // Where there are no walls, and in the plane.
+  for (const bool planar : {false, true})
+    for (const int most : {4096, 300}) {
+      const MultiBlockGrid open = planar ? planar_box({.ni = 200, .nk = 150}) : cartesian_box({.ni = 70, .nj = 24, .nk = 40});
+      const Tiling tiling = make_tiling(open, {}, {.max_cells = most});
+      for (const Tile& tile : tiling.tiles) CHECK(tile.count() <= most);
+    }
 }
 
 TEST_CASE("every face of a tile's sides has one neighbour or one boundary", "[aero][grid][fast]") {
