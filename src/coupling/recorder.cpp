@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/recorder.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "kernels/base/failure.hpp"
 #include "kernels/rigid/rotation.hpp"
 
 namespace spindrift::coupling {
@@ -145,9 +143,10 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
   // Bodies that are held before t = 0 are as they start: drivers and loads that depend on time begin there.
   static const bodies::Evaluation nothing;
   const bodies::Evaluation& now = state.motions.empty() ? nothing : floating_.multibody().evaluate(state, std::max(t, 0.0));
-  if (!now.report.ok())
-    throw NumericalFailure(fmt::format("t = {:.6g} s: no row of history: {}", t, floating_.multibody().describe(now.report)),
-                           "bodies", long(state.tick), t);
+  if (!now.report.ok()) {  // the next step says why
+    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   const auto bodies = floating_.multibody().bodies();
   for (std::size_t b = 0; b < bodies.size(); ++b)
     bodies_[b].fill(row, reference_motion(state.motions[b], bodies[b].initial, floating_.reference_point(b), now.acceleration[b],
