@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Everything a run writes; --overwrite removes these and leaves a user's own files alone.
-constexpr std::string_view files_of_a_run[] = {"scene.toml",    "history.csv", "summary.json", "log.txt",
-                                               "trace.json.gz", "report.html", "checkpoints",  "fields",
-                                               "spanwise.csv",  "history.out", "history.outb", "settling"};
+/// Everything a run writes, or wrote once; --overwrite removes these and leaves a user's own files alone.
+constexpr std::string_view files_of_a_run[] = {"scene.toml",  "history.csv",  "summary.json", "log.txt", "trace.json.gz",
+                                               "trace.json",  "report.html",  "checkpoints",  "fields",  "spanwise.csv",
+                                               "history.out", "history.outb", "settling"};
 
 bool holds(const fs::path& folder, std::string_view extension) {
   std::error_code none;
