@@ -149,7 +149,7 @@ bool same_across(const Scenario& s) {
          std::ranges::all_of(o.damping_zones, [](const sea::DampingZoneOptions& zone) { return zone.axis == "x"; });
 }
 
-/// Half as much water at the sides of a tank as round the bodies in it.
+/// The sides of a tank half as far from the bodies in it.
 Overrides nearer_tank_sides(const Scenario& s) {
   if (s.sea.particles->planar() || !s.sea.tank->meshes.empty()) return {};
   Eigen::AlignedBox3d round;
@@ -157,8 +157,10 @@ Overrides nearer_tank_sides(const Scenario& s) {
     if (Eigen::AlignedBox3d box = bodies::bounds(body.options); !box.isEmpty())
       round.extend(box.translate(body.options.displacement_m));
   if (round.isEmpty()) return {};
-  auto [low, high] = s.sea.tank->y_m;
+  const auto& sides = s.sea.tank->y_m;
+  auto [low, high] = sides;
   low = std::max(low, 0.5 * (low + round.min().y())), high = std::min(high, 0.5 * (high + round.max().y()));
+  if (low == sides[0] && high == sides[1]) return {};
   return {fmt::format("sea.tank.y_m=[{:.6g},{:.6g}]", low, high)};
 }
 
@@ -171,10 +173,14 @@ Overrides strips(const Scenario& s, const scene::Document& document) {
     cylinders = cylinders || !o.cylinders.empty();
   }
   if (!cylinders || s.sea.particles->planar()) return {};
+  Overrides waves;  // that grow as those of the particles
+  if (s.has_given_waves())
+    waves.push_back(
+        fmt::format("waves.ramp_s={:.6g}", s.sea.wavemaker ? s.sea.wavemaker->ramp_s.value_or(sea::growth_time(s.waves)) : 0.0));
   return without(document,
                  {"sea.particles", "sea.tank", "sea.water", "sea.obstacles", "sea.wavemaker", "sea.damping_zones", "sea.initial",
                   "sea.gauges", "sea.probes", "sea.sensors", "sea.fields", "coupling.placement", "coupling.air_ranks"}) +
-         Overrides{"sea.model=morison"};
+         Overrides{"sea.model=morison"} + waves;
 }
 
 /// Of [sea.particles], [sea.tank], [sea.initial], [sea].
