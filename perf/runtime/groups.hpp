@@ -6,7 +6,7 @@
 
 namespace spindrift::perf {
 
-void stencils(Group& group);     ///< overhead per task, METG, against OpenMP and TBB
+void stencils(Group& group);     ///< overhead per task, METG and loss of our runtime; its peers: omp.cpp, tbb.cpp, mpi.cpp
 void two_physics(Group& group);  ///< coupled window against each part alone
 void recording(Group& group);    ///< recording, a million tasks
 

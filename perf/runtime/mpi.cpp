@@ -27,7 +27,7 @@ struct Piece {
     if (rank + 1 < threads) with(rank + 1, end() - 1, end());
     MPI_Waitall(n, requests, MPI_STATUSES_IGNORE);
   }
-  void operator()(long n, int steps) {
+  int operator()(long n, int steps) {
     x.begin();
     MPI_Barrier(MPI_COMM_WORLD);
     for (int s = 0; s < steps; ++s) {
@@ -36,6 +36,7 @@ struct Piece {
     }
     MPI_Barrier(MPI_COMM_WORLD);
     x.require_right(steps, first(), end());
+    return steps;
   }
 };
 
@@ -71,7 +72,7 @@ int main(int argc, char** argv) {
   for (const int width : {64, 4}) {
     Points x(line(width));
     Piece piece{x, rank};
-    const auto run = [&](long n, int steps) { piece(n, steps); };
+    const auto run = [&](long n, int steps) { return piece(n, steps); };
     const double us = metg_us(run, x.size(), iteration_ns, common);
     if (group) group->figure("metg_50/width_" + std::to_string(width) + "/mpi", us, "us");
   }

@@ -48,12 +48,13 @@ class Replayed {
     executor_ = std::make_unique<Executor>(
         std::move(graph), runtime::ExecutorOptions{.threads = threads, .records = 1 << 20, .priorities = priorities});
   }
-  void operator()(long n, int steps) {
+  int operator()(long n, int steps) {
     of_->n = n;
     of_->points.begin();
     executor_->clear_records();
     executor_->run(std::uint32_t(steps / 2));
     of_->points.require_right(steps);
+    return steps;
   }
 
  private:
@@ -71,7 +72,7 @@ class Replayed {
 void stencils(Group& group) {
   const Neighbours blocks = cube(8);
   Replayed on_line(line(64), false), on_short_line(line(4), false), on_cube(blocks, false), on_cube_ranked(blocks, true);
-  const auto runner = [](Replayed& replayed) { return [&](long n, int steps) { replayed(n, steps); }; };
+  const auto runner = [](Replayed& replayed) { return [&](long n, int steps) { return replayed(n, steps); }; };
 
   group.at_most("overhead/stencil_1d", per_task(runner(on_line), 64, 0, 8000), "core-ns", 150, Ceiling::none,
                 "empty tasks, traced, inputs checked, width 64");

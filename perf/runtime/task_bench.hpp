@@ -70,15 +70,15 @@ class Points {
   std::array<std::vector<Cell>, 2> cells_;
 };
 
-/// Runs an even number of steps of tasks with n iterations of work.
-using Runner = std::function<void(long n, int steps)>;
+/// Runs at least this even number of steps of tasks with n iterations of work; how many it made.
+using Runner = std::function<int(long n, int steps)>;
 
 /// Core-nanoseconds per task.
 inline double per_task(const Runner& run, std::size_t points, long n, int steps, int samples = 7) {
-  run(n, steps);
+  const int made = run(n, steps);
   std::vector<double> times;
   for (int s = 0; s < samples; ++s) times.push_back(seconds([&] { run(n, steps); }));
-  return quantile(times, 0.5) * threads / double(points) / steps * 1e9;
+  return quantile(times, 0.5) * threads / double(points) / made * 1e9;
 }
 
 /// Time per task and core at half efficiency [us]: the median of three bisections in the logarithm of the work. `iteration_ns`:
@@ -112,14 +112,25 @@ inline double iteration_ns_of_threads() {
   return measure(all, {.samples = 9, .warm_ups = 2, .sample_s = 0.001}).median / 2e6 * 1e9;
 }
 
-/// Loss [%] of tasks of 20 us against the same work without a runtime, in alternating order: the clock rate drifts.
+/// Loss [%] of 64 points of tasks of 20 us against the same work without a runtime, in alternating order: the clock rate drifts.
 inline double loss_at_20_us(const Runner& run) {
+  constexpr int points = 64;
   const long n = grain_of(20000);
+  const int steps = run(n, 50);
   const auto bare = [&] {
 #pragma omp parallel num_threads(threads)
-    for (int i = 0; i < 32 * 40; ++i) grain(n);
+    for (int i = 0; i < points * steps / threads; ++i) grain(n);
   };
-  return 100 * (paired_ratio([&] { run(n, 40); }, bare, 15).median - 1);
+  return 100 * (paired_ratio([&] { run(n, steps); }, bare, 15).median - 1);
+}
+
+/// What is told of a peer on a line of `width` points; `steps`: of a measurement of empty tasks.
+inline void figures_of_peer(Group& group, const std::string& peer, const Runner& run, int width, int steps) {
+  const auto points = static_cast<std::size_t>(width);
+  group.figure("metg_50/width_" + std::to_string(width) + "/" + peer, metg_us(run, points, iteration_ns_of_threads), "us");
+  if (width != 64) return;
+  group.figure("overhead/stencil_1d/" + peer, per_task(run, points, 0, steps), "core-ns");
+  group.figure("loss_at_20_us/" + peer, loss_at_20_us(run), "%");
 }
 
 }  // namespace spindrift::perf
