@@ -59,18 +59,27 @@ std::string reason(int why) {
 
 StopAsked::StopAsked() : std::runtime_error(cause.load() != 0 ? reason(cause.load()) : "stopped on request") {}
 
-StopRequest::StopRequest(double wall_limit_s, std::filesystem::path file) : file_(std::move(file)) {
-  cause = 0, margin_ns = 0, looked_ns = 0;
-  limit_ns = wall_limit_s > 0.0 ? now_ns() + std::int64_t(wall_limit_s * 1e9) : never;
-  watched = file_.string();
-  std::error_code none;
-  if (!watched.empty()) std::filesystem::remove(file_, none);  // of the run before
+StopRequest::StopRequest() {
+  cause = 0, margin_ns = 0, looked_ns = 0, limit_ns = never;
+  watched.clear();
   for (const auto& [number, name] : signals) {
     struct sigaction action {};
     action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
     ::sigaction(number, &action, nullptr);
   }
+}
+
+StopRequest::StopRequest(double wall_limit_s, std::filesystem::path file) : StopRequest() {
+  watch(wall_limit_s, std::move(file));
+}
+
+void StopRequest::watch(double wall_limit_s, std::filesystem::path file) {
+  file_ = std::move(file);
+  limit_ns = wall_limit_s > 0.0 ? now_ns() + std::int64_t(wall_limit_s * 1e9) : never;
+  watched = file_.string();
+  std::error_code none;
+  if (!watched.empty()) std::filesystem::remove(file_, none);  // of the run before
 }
 
 StopRequest::~StopRequest() {

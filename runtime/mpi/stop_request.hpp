@@ -19,12 +19,16 @@ struct StopAsked : std::runtime_error {
 class StopRequest {
  public:
   /// Catches TERM, INT, USR1, USR2, HUP and XCPU from now on; a second signal, a second later or more, ends the program at once.
-  /// wall_limit_s <= 0: none. `file`: whose appearance is a request (it is then removed); empty: none.
-  explicit StopRequest(double wall_limit_s = 0.0, std::filesystem::path file = {});
+  StopRequest();
+  /// As with `watch`.
+  explicit StopRequest(double wall_limit_s, std::filesystem::path file = {});
   ~StopRequest();  ///< gives the signals back
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
+  /// From now on wall time is limited; wall_limit_s <= 0: it is not. `file`: whose appearance is a request (it is then removed);
+  /// empty: none.
+  void watch(double wall_limit_s, std::filesystem::path file = {});
   /// What saving takes: so much before the limit on wall time the run is to stop.
   void keep_margin(double seconds);
 

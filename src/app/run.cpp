@@ -222,6 +222,7 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
 
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
   const double since = processor_seconds();
+  runtime::StopRequest stop;  // a run that is asked to stop before it begins ends as one that was stopped, with its summary
   io::start_log(started.rank, arguments.quiet);
   std::optional<scene::Document> document;
   std::optional<coupling::Scenario> scenario;
@@ -283,7 +284,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   }
   // Before the run: meanwhile the file may be edited or gone.
   const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
-  runtime::StopRequest stop(scenario->runtime.wall_limit_s, directory.stop());
+  stop.watch(scenario->runtime.wall_limit_s, directory.stop());
   io::Summary summary = summary_of(directory, world, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);

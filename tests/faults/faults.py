@@ -240,9 +240,10 @@ def signals(folder, count, pick):
         expected, seconds = unbroken[name]
         out, runs = folder / f"signal_{runs}", runs + 1
         for attempt in range(100):
+            said_before = said_by(out)
             process = start(scene, out, "--restart")
             if attempt < 3 and requests < count:
-                asked = ask(process, out, pick, seconds)
+                asked = ask(process, out, said_before, pick, seconds)
                 if asked is not None:
                     said = process.communicate(timeout=120)[0]
                     took = time.time() - asked
@@ -260,9 +261,15 @@ def signals(folder, count, pick):
     return f"{count} requests in {runs} runs, the slowest took {slowest:.1f} s"
 
 
-def ask(process, out, pick, seconds):
+def said_by(out):
+    """Bytes of its log."""
+    log = out / "log.txt"
+    return log.stat().st_size if log.exists() else 0
+
+
+def ask(process, out, said_before, pick, seconds):
     """Asks it to stop in one of all ways once it is at work, and says when; nothing where it was done before."""
-    while not (out / "log.txt").exists() and process.poll() is None:
+    while said_by(out) == said_before and process.poll() is None:
         time.sleep(0.01)
     try:
         process.wait(0.1 + pick.uniform(0.0, 0.9 * seconds))
