@@ -48,6 +48,17 @@ extern "C" void note_signal(int signal) {
   ::raise(signal);
 }
 
+extern "C" void too_late(int) {}
+
+void handle_all(void (*handler)(int)) {
+  for (const auto& [number, name] : signals) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(number, &action, nullptr);
+  }
+}
+
 std::string reason(int why) {
   for (const auto& [number, name] : signals)
     if (why == number) return std::string("stopped on request (") + name + ")";
@@ -62,12 +73,7 @@ StopAsked::StopAsked() : std::runtime_error(cause.load() != 0 ? reason(cause.loa
 StopRequest::StopRequest() {
   cause = 0, margin_ns = 0, looked_ns = 0, limit_ns = never;
   watched.clear();
-  for (const auto& [number, name] : signals) {
-    struct sigaction action {};
-    action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART;
-    ::sigaction(number, &action, nullptr);
-  }
+  handle_all(note_signal);
 }
 
 StopRequest::StopRequest(double wall_limit_s, std::filesystem::path file) : StopRequest() {
@@ -83,10 +89,12 @@ void StopRequest::watch(double wall_limit_s, std::filesystem::path file) {
 }
 
 StopRequest::~StopRequest() {
-  for (const auto& [number, name] : signals) ::signal(number, SIG_DFL);
+  handle_all(too_late);  // not SIG_IGN, which processes that are started would inherit
   cause = 0, limit_ns = never;
   watched.clear();
 }
+
+void StopRequest::give_signals_back() { handle_all(SIG_DFL); }
 
 void StopRequest::keep_margin(double seconds) { margin_ns = std::int64_t(seconds * 1e9); }
 

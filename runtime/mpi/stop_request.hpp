@@ -22,7 +22,9 @@ class StopRequest {
   StopRequest();
   /// As with `watch`.
   explicit StopRequest(double wall_limit_s, std::filesystem::path file = {});
-  ~StopRequest();  ///< gives the signals back
+  ~StopRequest();  ///< from then on these signals do nothing: what is over cannot be stopped
+  /// After the last request: the signals end the program again, for work that may be broken off.
+  static void give_signals_back();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 

@@ -311,6 +311,7 @@ int run(const RunArguments& arguments, const runtime::World& world) {
     spdlog::info("no report of a run that was stopped: spindrift report {} makes it", run.directory.string());
   } else if (run.writes && !arguments.no_report) {
     spdlog::info("making the report");
+    runtime::StopRequest::give_signals_back();
     if (const report::Outcome made = report::write({.directories = {run.directory}, .says_verdict = !arguments.quiet});
         !made.ok())
       spdlog::warn("no report: {}", made.trouble);

@@ -50,6 +50,21 @@ TEST_CASE("a file is a request when it appears, not one left by the run before",
   CHECK_FALSE(std::filesystem::exists(file));
 }
 
+TEST_CASE("what is over cannot be stopped, until the signals are given back", "[runtime][faults][fast]") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    { const StopRequest stop; }
+    ::raise(SIGTERM), ::raise(SIGUSR2);
+    StopRequest::give_signals_back();
+    ::raise(SIGHUP);
+    std::_Exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGHUP);
+}
+
 TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
   const pid_t child = ::fork();
   if (child == 0) {
