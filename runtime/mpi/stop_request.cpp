@@ -89,9 +89,14 @@ void StopRequest::watch(double wall_limit_s, std::filesystem::path file) {
 }
 
 StopRequest::~StopRequest() {
-  handle_all(too_late);  // not SIG_IGN, which processes that are started would inherit
+  if (!over_) give_signals_back();
   cause = 0, limit_ns = never;
   watched.clear();
+}
+
+void StopRequest::over() {
+  over_ = true;
+  handle_all(too_late);  // not SIG_IGN, which processes that are started would inherit
 }
 
 void StopRequest::give_signals_back() { handle_all(SIG_DFL); }

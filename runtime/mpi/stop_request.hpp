@@ -22,15 +22,17 @@ class StopRequest {
   StopRequest();
   /// As with `watch`.
   explicit StopRequest(double wall_limit_s, std::filesystem::path file = {});
-  ~StopRequest();  ///< from then on these signals do nothing: what is over cannot be stopped
-  /// After the last request: the signals end the program again, for work that may be broken off.
-  static void give_signals_back();
+  ~StopRequest();  ///< gives the signals back, unless it is over
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
   /// From now on wall time is limited; wall_limit_s <= 0: it is not. `file`: whose appearance is a request (it is then removed);
   /// empty: none.
   void watch(double wall_limit_s, std::filesystem::path file = {});
+  /// There is nothing left to stop: the signals do nothing from now on, also when this is gone ...
+  void over();
+  /// ... until they end the program again, for work that may be broken off.
+  static void give_signals_back();
   /// What saving takes: so much before the limit on wall time the run is to stop.
   void keep_margin(double seconds);
 
@@ -41,6 +43,7 @@ class StopRequest {
 
  private:
   std::filesystem::path file_;
+  bool over_ = false;
 };
 
 }  // namespace spindrift::runtime

@@ -302,6 +302,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
       write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);
     print_summary(summary, directory);
   }
+  stop.over();
   return {std::move(summary), directory.path(), world.rank == 0};
 }
 

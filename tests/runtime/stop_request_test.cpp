@@ -16,6 +16,24 @@ using Catch::Matchers::Contains;
 using spindrift::runtime::StopRequest;
 using namespace std::chrono_literals;
 
+namespace {
+
+/// The signal that ends a process which does this.
+template <class Body>
+int ended_by(Body&& body) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    body();
+    std::_Exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  return WTERMSIG(status);
+}
+
+}  // namespace
+
 TEST_CASE("every signal that queues and terminals send is a request, with its name", "[runtime][faults][fast]") {
   for (const auto& [number, name] : {std::pair{SIGTERM, "SIGTERM"}, std::pair{SIGINT, "SIGINT"}, std::pair{SIGUSR1, "SIGUSR1"},
                                      std::pair{SIGUSR2, "SIGUSR2"}, std::pair{SIGHUP, "SIGHUP"}, std::pair{SIGXCPU, "SIGXCPU"}}) {
@@ -51,31 +69,29 @@ TEST_CASE("a file is a request when it appears, not one left by the run before",
 }
 
 TEST_CASE("what is over cannot be stopped, until the signals are given back", "[runtime][faults][fast]") {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    { const StopRequest stop; }
-    ::raise(SIGTERM), ::raise(SIGUSR2);
-    StopRequest::give_signals_back();
-    ::raise(SIGHUP);
-    std::_Exit(0);
-  }
-  int status = 0;
-  REQUIRE(::waitpid(child, &status, 0) == child);
-  REQUIRE(WIFSIGNALED(status));
-  CHECK(WTERMSIG(status) == SIGHUP);
+  CHECK(ended_by([] {
+          {
+            StopRequest stop;
+            stop.over();
+          }
+          ::raise(SIGTERM), ::raise(SIGUSR2);
+          StopRequest::give_signals_back();
+          ::raise(SIGHUP);
+        }) == SIGHUP);
+}
+
+TEST_CASE("a request that is gone gives the signals back", "[runtime][faults][fast]") {
+  CHECK(ended_by([] {
+          { const StopRequest stop; }
+          ::raise(SIGTERM);
+        }) == SIGTERM);
 }
 
 TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const StopRequest stop;
-    ::raise(SIGTERM);
-    std::this_thread::sleep_for(1100ms);
-    ::raise(SIGUSR1);
-    std::_Exit(0);
-  }
-  int status = 0;
-  REQUIRE(::waitpid(child, &status, 0) == child);
-  REQUIRE(WIFSIGNALED(status));
-  CHECK(WTERMSIG(status) == SIGUSR1);
+  CHECK(ended_by([] {
+          const StopRequest stop;
+          ::raise(SIGTERM);
+          std::this_thread::sleep_for(1100ms);
+          ::raise(SIGUSR1);
+        }) == SIGUSR1);
 }
