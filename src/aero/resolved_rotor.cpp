@@ -79,11 +79,11 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-std::vector<std::string> blade_patches(const MultiBlockGrid& grid) {
+Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid) {
   std::vector<std::string> blades;
   for (const Boundary& b : grid.boundaries)
     if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
-  return blades;
+  return make_tiling(grid, blades, tile_limits(flow));
 }
 
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) try {
@@ -113,9 +113,8 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   now_ = before_ = {start_};
   MultiBlockGrid placed = steady() ? carried(grid, map_of(start_)) : MultiBlockGrid();
   const MultiBlockGrid& solved_on = steady() ? placed : grid;
-  const std::vector<std::string> blades = blade_patches(grid);
   if (told) told("tiles", 0.0);
-  Tiling tiling = make_tiling(solved_on, blades, tile_limits(setup.flow));
+  Tiling tiling = rotor_tiling(setup.flow, solved_on);
   const FlowOptions flow = with_default_patches(setup.flow, tiling);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
   if (!setup.ranks_may_idle) require_ranks(std::size_t(tiling.size()), ranks);

@@ -49,8 +49,8 @@ struct MadeRotorGrid {
   int span_cells() const { return spec.sizes.span >> spec.coarsen; }        ///< from hub to tip
   int radial_cells() const { return spec.sizes.radial() >> spec.coarsen; }  ///< from hub to outer radius
 };
-/// Patches of its blades.
-std::vector<std::string> blade_patches(const MultiBlockGrid& grid);
+/// How the grid of a rotor is cut into tiles: lines of cells from the blades stay whole.
+Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid);
 /// Throws scene::SceneError where the scene does not make a grid fit for use. A ResolvedRotor keeps it without its nodes, which
 /// would be the largest array of a rank: its own tiles have theirs.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});

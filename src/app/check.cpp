@@ -342,8 +342,7 @@ void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
   constexpr long made_at_most = 300'000;
   if (aero::resolved_rotor_size(setup).cells > made_at_most) return;
   const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
-  aero::require_ranks(
-      std::size_t(aero::make_tiling(made->grid, aero::blade_patches(made->grid), aero::tile_limits(setup.flow)).size()), ranks);
+  aero::require_ranks(std::size_t(aero::rotor_tiling(setup.flow, made->grid).size()), ranks);
 }
 
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
