@@ -71,7 +71,7 @@ void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOption
                                     parts.joints[joint]),
                         fmt::format("up to half the weight of all bodies, {:.3g} N", around.weight_N),
                         "look at volume_m3 and mass_kg, and at their units"});
-    else if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
+    else if (const double z = line.anchor_m->z() + heights[joint]; hung < 0.0 && z > 0.0)
       doubts.push_back({at + ".clumps",
                         fmt::format("the float at {:.4g} m is {:.4g} m above the surface at the start", parts.joints[joint], z),
                         "floats under water: this model has all of their lift at any height",

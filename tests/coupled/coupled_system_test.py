@@ -1,12 +1,11 @@
 """The coupled system as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
 Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: coupled_system_test.py SPINDRIFT [CLASS...]"""
-import gzip
 import json
 import os
 import subprocess
 import unittest
 
-from running import PROGRAM, ROOT, Runs, rows
+from running import PROGRAM, ROOT, Runs, rows, trace_events
 
 CASES = ROOT / "inputs/leble_barakos"
 
@@ -392,7 +391,7 @@ class SystemRun(System):
 
     def test_the_trace_shows_output_beside_the_next_window_and_data_between_air_bodies_and_sea(self):
         self.run_scene(PARTICLES + "[checkpoint]\ninterval_s = 0.1\n", "traced", "--trace", threads=2)
-        events = json.loads(gzip.decompress((self.path / "traced/trace.json.gz").read_bytes()))["traceEvents"]
+        events = trace_events(self.path / "traced")
         rows_of, ends = {}, {}
         for event in events:
             row = event["pid"], event.get("tid")

@@ -1,7 +1,6 @@
 """The program as a user meets it: exit codes, messages, run directory, restart, ranks. Usage: program_test.py SPINDRIFT [CLASS...]"""
 import concurrent.futures
 import functools
-import gzip
 import json
 import os
 import re
@@ -11,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from running import Folder, PROGRAM, ROOT, spindrift
+from running import Folder, PROGRAM, ROOT, spindrift, trace_events
 
 CASE1 = ROOT / "inputs/leble_barakos/case1_engineering.toml"
 CASE2 = ROOT / "inputs/leble_barakos/case2_engineering.toml"
@@ -29,7 +28,7 @@ class Program(Folder):
         summary = json.loads((self.out / "summary.json").read_text())
         self.assertEqual(summary["exit_code"], 0)
         self.assertEqual(summary["set"], ["aero.thrust_N=1.4e6"])
-        json.loads(gzip.decompress((self.out / "trace.json.gz").read_bytes()))
+        trace_events(self.out)
 
     def test_bad_input_is_said_once_by_whichever_rank_meets_it(self):
         absent = self.path / "absent.toml"
@@ -128,7 +127,7 @@ class Program(Folder):
         small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
         done = self.run_case(*small, "--trace", "--windows", "2:2", scene=box, ranks=2)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        events = json.loads(gzip.decompress((self.out / "trace.json.gz").read_bytes()))["traceEvents"]
+        events = trace_events(self.out)
         self.assertGreater(self.check_trace(events), 10)   # messages between the ranks
 
     def test_a_trace_of_chosen_windows_has_these_alone(self):
@@ -138,7 +137,7 @@ class Program(Folder):
         for name, more in (("all", []), ("two", ["--windows", "2:3"])):
             out = self.out.parent / name
             self.assertEqual(self.run_case(*small, "--trace", *more, scene=box, out=out).returncode, 0)
-            events = json.loads(gzip.decompress((out / "trace.json.gz").read_bytes()))["traceEvents"]
+            events = trace_events(out)
             self.check_trace(events)
             tasks = [e for e in events if e["ph"] == "X" and e["name"].startswith("sea/pairs/")]
             replays[name] = sorted({e["args"]["replay"] for e in tasks})

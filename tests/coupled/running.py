@@ -1,6 +1,8 @@
 """What the tests of the program share: the program under test (the first argument), the sources, a run of it, a folder of its own for each test.
 SPDX-License-Identifier: Apache-2.0"""
 import csv
+import gzip
+import json
 import os
 import pathlib
 import subprocess
@@ -25,6 +27,11 @@ def rows(path):
     """Of a table that a run left, history.csv or spanwise.csv: numbers by column."""
     with open(path, encoding="utf-8") as file:
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def trace_events(folder):
+    """What a run's trace has in it."""
+    return json.loads(gzip.decompress((folder / "trace.json.gz").read_bytes()))["traceEvents"]
 
 
 def columns(path):

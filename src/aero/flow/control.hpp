@@ -20,8 +20,7 @@ struct MarchOptions {
   double drop = 1e-2;         ///< of the residual since the start of the (physical) step: done; 0: all steps are meant
   bool by_balance = false;    ///< that residual is the norm of all scaled flux balances; else that of the density's rate
   double absolute = 0.0;      ///< density residual [kg/(m3 s)] below which all is done
-  double load_change =
-      0.0;  ///< relative change of the loads over load_window steps of a cell's passage at least: done; 0: not checked
+  double load_change = 0.0;   ///< relative change of the loads over load_window steps of full length: done; 0: not checked
   int load_window = 20;
   int min_steps = 1, max_steps = 500;
   int still_steps = 200;            ///< pseudo-steps without the flux balance being halved: the march stands still,

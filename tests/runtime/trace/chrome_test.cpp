@@ -127,4 +127,5 @@ TEST_CASE("a path that ends with .gz gets the same text compressed", "[trace][fa
 
 TEST_CASE("a file that cannot be written is an error that names it", "[trace][fast]") {
   CHECK_THROWS_WITH(write_chrome_trace({}, "/nonexistent/trace.json"), Catch::Contains("/nonexistent/trace.json: No such file"));
+  CHECK_THROWS_WITH(write_chrome_trace(one_message(), "/dev/full"), Catch::Contains("/dev/full: No space left"));
 }
