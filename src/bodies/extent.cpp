@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kernels/rigid/closed_surface.hpp"
+#include "src/scene/document.hpp"
 
 namespace spindrift::bodies {
 
