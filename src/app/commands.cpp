@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/scene/text_check.hpp"
+#include "src/scene/value.hpp"
 
 namespace spindrift::app {
 

@@ -23,6 +23,7 @@
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/app/smaller_choices.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/coupling/memory_limits.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/io/console.hpp"
