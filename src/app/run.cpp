@@ -34,6 +34,7 @@
 #include "src/io/openfast_file.hpp"
 #include "src/report/report.hpp"
 #include "src/run/driver.hpp"
+#include "src/run/outputs.hpp"
 #include "src/scene/angle_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
@@ -94,16 +95,10 @@ void require_writable(const RunArguments& arguments, MPI_Comm world) {
   });
 }
 
-/// Over which the summary gives means: the whole run, and (the one that the report shows) the end of it.
-std::vector<io::TimeRange> mean_ranges(const coupling::Scenario& scenario, double end_s) {
-  const double length = scenario.output.mean_length(end_s);
-  return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
-}
-
-/// Of the rows that there are; none where the run did not come to one.
+/// Of the rows in the file, where the run did not come to its end; none where it did not come to a row.
 io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupling::Scenario& scenario, double end_s) {
   if (!std::filesystem::exists(directory.history())) return {};
-  return io::history_statistics(directory.history(), mean_ranges(scenario, end_s));
+  return io::history_statistics(directory.history(), run::mean_ranges(scenario.output, end_s));
 }
 
 /// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
@@ -119,7 +114,7 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
   const auto refused = [&](const std::string& why) {
     if (world.rank != 0 || std::filesystem::exists(directory.summary())) return;
     end(bad_input, why);
-    write_summary(directory.summary(), summary, {});
+    write_summary(directory.summary(), summary);
   };
   try {
     return run();
@@ -134,7 +129,7 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
                              why.what()));
   } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
     end(machine_failure, failure.what());
-    if (world.rank == 0) write_summary(directory.summary(), summary, {});
+    if (world.rank == 0) write_summary(directory.summary(), summary);
     throw;
   }
   return summary;
@@ -296,7 +291,8 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   if (world.rank == 0) {
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
     summary.warnings = io::warnings_logged();
-    write_summary(directory.summary(), summary, statistics(directory, *scenario, summary.end_time_s));
+    if (!summary.statistics) summary.statistics = statistics(directory, *scenario, summary.end_time_s);
+    write_summary(directory.summary(), summary);
     using Format = io::OpenFastFormat;
     if (const std::string& format = scenario->output.openfast; format != "none")
       write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);

@@ -2,6 +2,7 @@
 #include "src/io/history.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "src/io/machine_failure.hpp"
 
@@ -21,11 +23,9 @@ namespace {
 constexpr std::size_t buffer_bytes = 1 << 16;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// FNV-1a, 64 bits, going on from `digest`.
-constexpr std::uint64_t digest_start = 0xcbf29ce484222325ULL;
-std::uint64_t digest_of(std::uint64_t digest, std::string_view text) {
-  for (const char byte : text) digest = (digest ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return digest;
+/// CRC-32 of a text that goes on from one whose digest is given; of nothing it is 0.
+std::uint32_t digest_of(std::uint32_t digest, std::string_view text) {
+  return std::uint32_t(crc32_z(digest, reinterpret_cast<const Bytef*>(text.data()), text.size()));
 }
 
 /// Shortest text that reads back as the same double; sign and payload of a nan are dropped so that equal runs give equal bytes.
@@ -78,12 +78,23 @@ std::size_t History::add(Column column) {
   return columns_.size() - 1;
 }
 
+void History::keep_statistics(std::vector<TimeRange> ranges) {
+  std::vector<std::string> names;
+  for (const Column& column : columns_) names.push_back(column.name);
+  statistics_.emplace(names, std::move(ranges));
+}
+
+std::optional<HistoryStatistics> History::statistics() const {
+  if (!statistics_ || !file_.is_open()) return std::nullopt;
+  return statistics_->result();
+}
+
 void History::open(const std::filesystem::path& path) {
   file_ = OutputFile(path, OutputFile::Start::empty);
   buffer_ = header_of(columns_) + "\n";
   buffer_.reserve(buffer_bytes + columns_.size() * 26);
   bytes_ = rows_ = 0;
-  digest_ = digest_start;
+  digest_ = 0;
   drain();
 }
 
@@ -103,7 +114,7 @@ double History::resume(const std::filesystem::path& path, double time_s, const s
   const double last_kept = time_s + 1e-12 * std::max(1.0, std::abs(time_s));
   double last = nan;
   rows_ = 0;
-  digest_ = digest_of(digest_of(digest_start, line), "\n");
+  digest_ = digest_of(digest_of(0, line), "\n");
   while (std::getline(in, line) && !in.eof()) {  // at the end of file: a line without its newline, half written
     double time = nan;
     std::from_chars(line.data(), line.data() + line.size(), time);
@@ -112,6 +123,9 @@ double History::resume(const std::filesystem::path& path, double time_s, const s
     digest_ = digest_of(digest_of(digest_, line), "\n");
     last = time;
     ++rows_;
+    if (!statistics_) continue;
+    read_row(line, values_);
+    statistics_->add(values_);
   }
   in.close();
   bytes_ = kept_bytes;
@@ -144,6 +158,7 @@ std::span<double> History::row(double time_s) {
 void History::write() {
   ++rows_;
   if (!file_.is_open()) return;
+  if (statistics_) statistics_->add(values_);
   for (std::size_t i = 0; i < values_.size(); ++i) {
     if (i != 0) buffer_ += ',';
     append_number(buffer_, values_[i]);

@@ -1,5 +1,5 @@
 // history.csv: named columns, one row per coupling window, every number with the digits that give the same double back.
-// Columns are declared by whoever has the values; rows are written by the coupling. Statistics of a finished file:
+// Columns are declared by whoever has the values; rows are written by the coupling. Their statistics:
 // history_statistics.hpp. Tested in tests/src/io/history_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/io/atomic_file.hpp"
+#include "src/io/history_statistics.hpp"
 
 namespace spindrift::io {
 
@@ -38,6 +39,11 @@ class History {
   /// Declares a column and gives its index in row(). Before open(); names are unique, without comma, quote or white space.
   std::size_t add(Column column);
   const std::vector<Column>& columns() const { return columns_; }
+
+  /// Has statistics of all rows, kept and written, with means over these ranges of time. Before open() or resume().
+  void keep_statistics(std::vector<TimeRange> ranges);
+  /// None where they are not kept, or no file is open: on other ranks.
+  std::optional<HistoryStatistics> statistics() const;
 
   /// Starts a new file.
   void open(const std::filesystem::path& path);
@@ -75,7 +81,8 @@ class History {
   std::string buffer_;
   OutputFile file_;
   long long bytes_ = 0, rows_ = 0;
-  std::uint64_t digest_ = 0;  ///< of these bytes
+  std::uint32_t digest_ = 0;  ///< of these bytes: CRC-32
+  std::optional<RunningStatistics> statistics_;
   std::chrono::steady_clock::time_point drained_;
 };
 

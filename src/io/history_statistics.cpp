@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/io/history_statistics.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "src/io/machine_failure.hpp"
 
@@ -33,28 +35,6 @@ double number(std::string_view text) {
   return value;
 }
 
-/// Trapezoidal integral of every column over the rows of one range.
-struct Integral {
-  std::vector<double> sum, first;
-  double from = absent, to = absent;
-
-  void add(double time, const std::vector<double>& before, const std::vector<double>& now) {
-    if (std::isnan(from)) {
-      from = to = time;
-      first = now;
-      sum.assign(now.size(), 0.0);
-      return;
-    }
-    const double half = 0.5 * (time - to);
-    for (std::size_t c = 0; c < now.size(); ++c) sum[c] += half * (before[c] + now[c]);
-    to = time;
-  }
-  double mean(std::size_t column) const {
-    if (std::isnan(from)) return absent;
-    return to > from ? sum[column] / (to - from) : first[column];
-  }
-};
-
 void update(ColumnStatistics& column, double time, double value) {
   column.final = value;
   if (!std::isfinite(value)) {
@@ -67,35 +47,66 @@ void update(ColumnStatistics& column, double time, double value) {
 
 }  // namespace
 
+RunningStatistics::RunningStatistics(const std::vector<std::string>& columns, std::vector<TimeRange> ranges)
+    : integrals_(ranges.size()) {
+  statistics_.ranges = std::move(ranges);
+  for (const std::string& name : columns) statistics_.columns.push_back({name, absent, absent, absent, absent, absent, 0, {}});
+}
+
+void RunningStatistics::add(std::span<const double> row) {
+  const double time = row[0];
+  for (std::size_t c = 0; c < row.size(); ++c) update(statistics_.columns[c], time, row[c]);
+  for (std::size_t r = 0; r < integrals_.size(); ++r) {
+    const TimeRange& range = statistics_.ranges[r];
+    const double margin = 1e-12 * std::abs(time);
+    if (time < range.from_s - margin || time > range.to_s + margin) continue;
+    Integral& integral = integrals_[r];
+    if (!integral.from_s) {
+      integral.from_s = time;
+      integral.first.assign(row.begin(), row.end());
+      integral.sum.assign(row.size(), 0.0);
+    } else {
+      const double half = 0.5 * (time - integral.to_s);
+      for (std::size_t c = 0; c < row.size(); ++c) integral.sum[c] += half * (before_[c] + row[c]);
+    }
+    integral.to_s = time;
+  }
+  before_.assign(row.begin(), row.end());
+  ++statistics_.rows;
+}
+
+HistoryStatistics RunningStatistics::result() const {
+  HistoryStatistics result = statistics_;
+  for (std::size_t c = 0; c < result.columns.size(); ++c)
+    for (const Integral& of : integrals_) {
+      const double length = of.from_s ? of.to_s - *of.from_s : 0.0;
+      result.columns[c].means.push_back(!of.from_s ? absent : length > 0.0 ? of.sum[c] / length : of.first[c]);
+    }
+  return result;
+}
+
+void read_row(std::string_view line, std::vector<double>& values) {
+  std::size_t c = 0;
+  for_each_field(line, [&](std::string_view field) {
+    if (c < values.size()) values[c++] = number(field);
+  });
+  std::fill(values.begin() + std::ptrdiff_t(c), values.end(), absent);
+}
+
 HistoryStatistics history_statistics(const std::filesystem::path& path, std::vector<TimeRange> ranges) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw_errno("cannot read", path, errno);
-  HistoryStatistics result;
-  result.ranges = std::move(ranges);
   std::string line;
   std::getline(in, line);
-  for_each_field(line, [&](std::string_view name) {
-    result.columns.push_back({std::string(name), absent, absent, absent, absent, absent, 0, {}});
-  });
-
-  std::vector<Integral> integrals(result.ranges.size());
-  std::vector<double> before, now;
+  std::vector<std::string> columns;
+  for_each_field(line, [&](std::string_view name) { columns.emplace_back(name); });
+  RunningStatistics statistics(columns, std::move(ranges));
+  std::vector<double> row(columns.size());
   while (std::getline(in, line) && !in.eof()) {
-    now.clear();
-    for_each_field(line, [&](std::string_view field) { now.push_back(number(field)); });
-    now.resize(result.columns.size(), absent);
-    const double time = now[0];
-    for (std::size_t c = 0; c < now.size(); ++c) update(result.columns[c], time, now[c]);
-    for (std::size_t r = 0; r < integrals.size(); ++r) {
-      const double margin = 1e-12 * std::abs(time);
-      if (time >= result.ranges[r].from_s - margin && time <= result.ranges[r].to_s + margin) integrals[r].add(time, before, now);
-    }
-    std::swap(before, now);
-    ++result.rows;
+    read_row(line, row);
+    statistics.add(row);
   }
-  for (std::size_t c = 0; c < result.columns.size(); ++c)
-    for (const Integral& integral : integrals) result.columns[c].means.push_back(integral.mean(c));
-  return result;
+  return statistics.result();
 }
 
 }  // namespace spindrift::io

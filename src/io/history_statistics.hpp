@@ -1,11 +1,13 @@
-// Statistics of a finished history.csv: final values, extremes, and means over stated ranges of time, in one pass over the file.
-// From the file, not from memory, so that a restarted run gives the figures of an uninterrupted one. Goes into summary.json.
-// Tested in tests/src/io/history_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// Statistics of a history: final values, extremes, and means over stated ranges of time, row by row or in one pass over a file.
+// Both give the same figures, and so does a run that was restarted. Goes into summary.json. Tested in
+// tests/src/io/history_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spindrift::io {
@@ -28,6 +30,28 @@ struct HistoryStatistics {
   std::vector<TimeRange> ranges;
   std::vector<ColumnStatistics> columns;  ///< as in the file, time_s first
 };
+
+/// Takes rows as they come.
+class RunningStatistics {
+ public:
+  RunningStatistics(const std::vector<std::string>& columns, std::vector<TimeRange> ranges);
+  void add(std::span<const double> row);  ///< as many as there are columns, time_s first
+  HistoryStatistics result() const;
+
+ private:
+  /// Trapezoidal integral of every column over the rows of one range.
+  struct Integral {
+    std::vector<double> sum, first;
+    std::optional<double> from_s;
+    double to_s = 0.0;
+  };
+  HistoryStatistics statistics_;  ///< but for the means
+  std::vector<Integral> integrals_;
+  std::vector<double> before_;  ///< the last row
+};
+
+/// The numbers of a line of history.csv; nan where it has fewer than `values`.
+void read_row(std::string_view line, std::vector<double>& values);
 
 /// Throws MachineFailure where the file cannot be read. A half-written last line is left out.
 HistoryStatistics history_statistics(const std::filesystem::path& path, std::vector<TimeRange> ranges);

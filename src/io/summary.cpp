@@ -76,7 +76,8 @@ double real_time_factor(const Summary& summary) {
   return summary.wall_seconds > 0.0 ? (summary.end_time_s - summary.start_time_s) / summary.wall_seconds : 0.0;
 }
 
-void write_summary(const std::filesystem::path& path, const Summary& summary, const HistoryStatistics& statistics) {
+void write_summary(const std::filesystem::path& path, const Summary& summary) {
+  const HistoryStatistics statistics = summary.statistics.value_or(HistoryStatistics{});
   Json json = {{"format", "spindrift-summary-1"},
                {"title", summary.title},
                {"scene", summary.scene},

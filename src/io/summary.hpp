@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,12 +59,13 @@ struct Summary {
 
   int ranks = 1, threads = 1;  ///< threads per rank
   std::vector<Column> columns;
+  std::optional<HistoryStatistics> statistics;  ///< on the rank that writes history.csv
 };
 
 /// Simulated seconds per wall second.
 double real_time_factor(const Summary& summary);
 
 /// Rank 0. With build_info(), the host's name and processor; numbers that are not finite become null.
-void write_summary(const std::filesystem::path& path, const Summary& summary, const HistoryStatistics& statistics);
+void write_summary(const std::filesystem::path& path, const Summary& summary);
 
 }  // namespace spindrift::io

@@ -46,6 +46,7 @@ io::Summary Driver::run(Simulation& simulation) {
   if (!settings_.restart && !stop_.agreed(comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
+  history.keep_statistics(mean_ranges(simulation.scenario().output, timeline.window_end_s(last)));
   open_history(history, timeline.window_end_s(first), checkpoints.rows());
   HistoryOutput rows(simulation, history);
   ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet),
@@ -82,6 +83,7 @@ io::Summary Driver::run(Simulation& simulation) {
         last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : simulation.done();
   summary_.restarts = checkpoints.restarts();
   summary_.columns = history.columns();
+  if (summary_.exit_code == 0 && window == last_window(timeline)) summary_.statistics = history.statistics();
   summarise(simulation, first, window);
   return summary_;
 }

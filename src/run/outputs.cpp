@@ -13,6 +13,11 @@
 
 namespace spindrift::run {
 
+std::vector<io::TimeRange> mean_ranges(const coupling::OutputOptions& output, double end_s) {
+  const double length = output.mean_length(end_s);
+  return {{"whole_run", 0.0, end_s}, {fmt::format("last_{:g}_s", length), end_s - length, end_s}};
+}
+
 HistoryOutput::HistoryOutput(Simulation& simulation, io::History& history)
     : simulation_(simulation), history_(history), every_{.windows = simulation.scenario().output.history_every} {}
 

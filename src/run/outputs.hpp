@@ -13,6 +13,9 @@
 
 namespace spindrift::run {
 
+/// Over which a summary gives means: the whole run, and (the one that the report shows) the end of it.
+std::vector<io::TimeRange> mean_ranges(const coupling::OutputOptions& output, double end_s);
+
 /// A row of history.csv at the end of every output.history_every windows and of the last.
 class HistoryOutput final : public Output {
  public:

@@ -6,7 +6,7 @@
 namespace spindrift::run {
 
 namespace {
-constexpr const char* extent_name = "history/extent";
+constexpr const char* extent_name = "history/rows";
 }
 
 void write(io::CheckpointCopy& copy, const io::History::Extent& extent) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <random>
 
 #include "src/io/history_statistics.hpp"
@@ -19,9 +20,9 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Declares two columns and writes windows [first, last) of 0.1 s, opened or resumed by `start`.
+/// Declares two columns and writes windows [first, last) of 0.1 s, opened or resumed by `start`. Returns the statistics kept.
 template <class Start>
-void run(int first, int last, Start start) {
+std::optional<io::HistoryStatistics> run(int first, int last, Start start) {
   io::History history;
   const auto x = history.add({"platform.x_m", "m", "surge"});
   const auto f = history.add({"platform.sea.fx_N", "N", "force"});
@@ -34,6 +35,7 @@ void run(int first, int last, Start start) {
     history.write();
   }
   history.flush();
+  return history.statistics();
 }
 
 }  // namespace
@@ -177,6 +179,32 @@ TEST_CASE("statistics: final, extremes and trapezoidal means over ranges", "[io]
   CHECK(s.columns[2].not_finite == 2);
   CHECK(s.columns[2].min == 7);
   CHECK(std::isnan(s.columns[2].means[0]));
+}
+
+TEST_CASE("statistics kept while rows are written are those of the file, after a restart too", "[io][fast]") {
+  const test::Scratch folder("history");
+  const std::vector<io::TimeRange> ranges = {{"all", 0, 50}, {"end", 40, 50}, {"later", 60, 70}};
+  const int restart = GENERATE(0, 120, 450);
+  if (restart > 0) run(0, 460, [&](io::History& h) { h.open(folder / "h.csv"); });
+  const auto kept = run(restart, 500, [&](io::History& h) {
+    h.keep_statistics(ranges);
+    if (restart > 0)
+      h.resume(folder / "h.csv", 0.1 * restart);
+    else
+      h.open(folder / "h.csv");
+  });
+  const io::HistoryStatistics read = io::history_statistics(folder / "h.csv", ranges);
+  REQUIRE(kept);
+  CHECK(kept->rows == read.rows);
+  REQUIRE(kept->columns.size() == read.columns.size());
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (std::size_t c = 0; c < read.columns.size(); ++c) {
+    const io::ColumnStatistics &a = kept->columns[c], &b = read.columns[c];
+    CHECK(a.name == b.name);
+    CHECK((same(a.final, b.final) && same(a.min, b.min) && same(a.max, b.max) && same(a.min_time_s, b.min_time_s)));
+    CHECK((same(a.max_time_s, b.max_time_s) && a.not_finite == b.not_finite));
+    for (std::size_t r = 0; r < ranges.size(); ++r) CHECK(same(a.means[r], b.means[r]));
+  }
 }
 
 TEST_CASE("statistics of a history without rows are nan, and the file must be there", "[io][fast]") {

@@ -115,7 +115,8 @@ TEST_CASE("a summary holds what it was given, and null for what is not a number"
   statistics.ranges = {{"last_20_s", 130, 150}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   statistics.columns = {{"platform.x_m", 0.1, -1, 2, 10, 20, 1, {nan}}};
-  io::write_summary(folder / "summary.json", summary, statistics);
+  summary.statistics = statistics;
+  io::write_summary(folder / "summary.json", summary);
   const auto json = nlohmann::json::parse(io::read_file(folder / "summary.json"));
   CHECK(json["title"] == "Fall 1: \"ruhig\"");
   CHECK(json["exit_code"] == 3);
