@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -114,6 +115,30 @@ std::string words_too_many(int argc, char** argv, const std::vector<std::string>
                      left.empty() ? "" : left.front(), argv[1]);
 }
 
+/// What is wrong with the command line; empty where nothing is. --help and --version leave by CLI::Success.
+std::string misread(CLI::App& cli, int argc, char** argv) {
+  if (const std::string unknown = unknown_command(cli, argc, argv); !unknown.empty()) return unknown;
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ExtrasError& e) {
+    const std::string unknown = unknown_option(cli, argc, argv);
+    return unknown.empty() ? words_too_many(argc, argv, cli.remaining(true)) : unknown;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) throw;
+    const std::string known = argv[1][0] != '-' ? argv[1] : "";
+    return fmt::format("{}{}; spindrift {}--help says what it takes", known.empty() ? "" : known + ": ", e.what(),
+                       known.empty() ? "" : known + " ");
+  }
+  return {};
+}
+
+/// Whether a launcher may have started others beside this process.
+bool may_have_others() {
+  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"})
+    if (const char* value = std::getenv(size); value && std::atoi(value) > 1) return true;
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -128,32 +153,20 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}", cli.help());
     return app::bad_input;
   }
-  if (const std::string unknown = unknown_command(cli, argc, argv); !unknown.empty()) {
-    fmt::print(stderr, "error: {}\n", unknown);
+  std::string refusal;
+  try {
+    refusal = misread(cli, argc, argv);
+  } catch (const CLI::ParseError& asked) { return cli.exit(asked); }
+  if (!refusal.empty() && !may_have_others()) {
+    fmt::print(stderr, "error: {}\n", refusal);
     return app::bad_input;
   }
   try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ExtrasError& e) {
-    if (const std::string unknown = unknown_option(cli, argc, argv); !unknown.empty())
-      fmt::print(stderr, "error: {}\n", unknown);
-    else
-      fmt::print(stderr, "error: {}\n", words_too_many(argc, argv, cli.remaining(true)));
-    return app::bad_input;
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return cli.exit(e);
-    const bool known = argv[1][0] != '-';
-    fmt::print(stderr, "error: {}{}; spindrift {}--help says what it takes\n", known ? fmt::format("{}: ", argv[1]) : "",
-               e.what(), known ? fmt::format("{} ", argv[1]) : "");
-    return app::bad_input;
-  }
-  try {
-    int code = app::done;
+    int code = app::bad_input;
     {
       const runtime::MpiEnvironment mpi(argc, argv);
       io::start_log(mpi.rank(), false);
-      std::string refusal;
-      code = guarded([&] { return command(mpi.world()); }, refusal);
+      if (refusal.empty()) code = guarded([&] { return command(mpi.world()); }, refusal);
       if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one
       end_together(mpi, refusal);
     }

@@ -39,6 +39,11 @@ class Program(Folder):
                 self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
                 self.assertIn("absent.toml", done.stderr)
                 self.assertNotIn("MPI_ABORT", done.stderr)
+        for words in (("chekc", CASE1), ("run", "--oups", CASE1), ("run", CASE1, CASE2)):   # a command line that cannot be read
+            with self.subTest(words):
+                done = spindrift(*words, ranks=3)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertEqual(done.stderr.count("error: "), 1, done.stderr)
         # A rank that is alone with it does not let the others wait.
         began = time.monotonic()
         done = spindrift("import", absent, "--out", self.out, ":", "-n", 1, PROGRAM, "run", CASE1, "--no-report", "--out", self.path / "waits", ranks=1, timeout=60)
