@@ -25,8 +25,9 @@ RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatri
 
 /// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far
 /// field.
-FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
-  for (const std::string& patch : tiling.patches) {
+FlowOptions with_default_patches(FlowOptions o, const MultiBlockGrid& grid) {
+  for (const Boundary& boundary : grid.boundaries) {
+    const std::string& patch = boundary.patch;
     if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;
     if (patch.starts_with("blade_"))
       o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : o.blades, true, {}});
@@ -36,32 +37,49 @@ FlowOptions with_default_patches(FlowOptions o, const Tiling& tiling) {
   return o;
 }
 
-/// The grid where the rotor is, in earth coordinates.
-MultiBlockGrid carried(MultiBlockGrid grid, const RigidMap& map) {
+/// Where the rotor is, in earth coordinates.
+void carry(MultiBlockGrid& grid, const RigidMap& map) {
   for (Block& b : grid.blocks)
     for (Eigen::Vector3d& x : b.nodes) x = map.rotation * x + map.translation;
   for (Connection& c : grid.connections)
     if (c.periodic) c.periodic = moved_maps(std::span(&*c.periodic, 1), map)[0];
-  return grid;
 }
 
-/// Number of the nodes and moments of their places: equal for equal grids, and hardly ever for others.
-std::array<double, 3> moments_of(const MultiBlockGrid& grid) {
-  double nodes = 0.0, first = 0.0, second = 0.0;
-  for (const Block& b : grid.blocks)
-    for (const Eigen::Vector3d& x : b.nodes) nodes += 1.0, first += x.x() + 2.0 * x.y() + 3.0 * x.z(), second += x.squaredNorm();
-  return {nodes, first, second};
-}
+/// Number of the nodes and moments of their places, by block: equal for equal grids, and hardly ever for others.
+class Moments {
+ public:
+  explicit Moments(std::size_t blocks) : sums_(blocks) {}
+  void add(const GridLayers& part, bool last) {
+    for (std::size_t n = 0; n < sums_.size(); ++n) {
+      const Block& b = part.grid.blocks[n];
+      const int planes = part.count[n] + (last ? 1 : 0);
+      if (part.count[n] == 0) continue;
+      for (std::size_t p = 0; p < b.node(planes, 0, 0); ++p) {
+        const Eigen::Vector3d& x = b.nodes[p];
+        sums_[n][0] += 1.0, sums_[n][1] += x.x() + 2.0 * x.y() + 3.0 * x.z(), sums_[n][2] += x.squaredNorm();
+      }
+    }
+  }
+  std::array<double, 3> sum() const {
+    std::array<double, 3> all{};
+    for (const auto& of_block : sums_)
+      for (std::size_t d = 0; d < 3; ++d) all[d] += of_block[d];
+    return all;
+  }
 
-std::shared_ptr<const MadeRotorGrid> without_nodes(const MadeRotorGrid& made) {
+ private:
+  std::vector<std::array<double, 3>> sums_;
+};
+
+/// What a rotor still needs once its solver is made.
+std::shared_ptr<const MadeRotorGrid> rest_of(const MadeRotorGrid& made) {
   auto rest = std::make_shared<MadeRotorGrid>();
-  rest->turbine = made.turbine, rest->spec = made.spec, rest->stations = made.stations, rest->moments = made.moments;
-  const MultiBlockGrid& grid = made.grid;
-  for (const Block& b : grid.blocks)
-    rest->grid.blocks.push_back({.name = b.name, .ni = b.ni, .nj = b.nj, .nk = b.nk, .nodes = {}});
-  rest->grid.connections = grid.connections, rest->grid.boundaries = grid.boundaries, rest->grid.planar = grid.planar;
+  rest->turbine = made.turbine, rest->spec = made.spec, rest->grid = made.grid, rest->stations = made.stations;
+  rest->moments = made.moments;
   return rest;
 }
+
+constexpr int layers_at_once = 16;  // two of eighteen surfaces are made twice
 
 }  // namespace
 
@@ -79,66 +97,85 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid) {
+Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const EdgeLengths& edges) {
   std::vector<std::string> blades;
   for (const Boundary& b : grid.boundaries)
     if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
-  return make_tiling(grid, blades, tile_limits(flow));
+  return make_tiling(grid, blades, tile_limits(flow), edges);
 }
 
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) try {
   auto made = std::make_shared<MadeRotorGrid>();
   made->turbine = read_turbine(setup.rotor.turbine);
   made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
-  made->grid = make_rotor_grid(made->turbine, made->spec, told);
-  if (told) told("quality of the grid", 0.0);
-  require_quality(made->grid, rotor_grid_quality(made->grid, {"blade_"}),
+  made->maker = std::make_shared<RotorGridMaker>(made->turbine, made->spec);
+  made->grid = made->maker->described();
+  made->edges = EdgeLengths(made->grid);
+  std::vector<std::string> sticking;
+  for (const PatchOptions& b : with_default_patches(setup.flow, made->grid).boundaries)
+    if (sticks(b.condition)) sticking.push_back(b.patch);
+  RotorGridQuality quality;
+  Moments moments(made->grid.blocks.size());
+  const int layers = made->maker->layers();
+  for (int first = 0; first < layers; first += layers_at_once) {
+    if (told) told("rotor grid", double(first) / layers);
+    const int last = std::min(layers, first + layers_at_once);
+    const GridLayers part = made->maker->make(first, last, true);
+    merge(quality, rotor_grid_quality(part, {"blade_"}));
+    made->edges.add(part);
+    add_stations(part, made->stations);
+    const std::vector<WallSurface::Face> walls = wall_faces(part, sticking);
+    made->walls.insert(made->walls.end(), walls.begin(), walls.end());
+    moments.add(part, last == layers);
+    const std::vector<double> radii = surface_radii(part.grid.blocks[0]);
+    made->radii.insert(made->radii.end(), radii.begin(), last == layers ? radii.end() : radii.begin() + (last - first));
+  }
+  require_quality(made->grid, quality,
                   {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
-  require_sound(made->grid, "aero.grid");
-  made->stations = blade_stations(made->grid);
-  made->moments = moments_of(made->grid);
+  require_sound(made->grid, "aero.grid", {.nodes = false});
+  made->moments = moments.sum();
   return made;
 } catch (const NumericalFailure& failure) {
   throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
 }
 
+namespace {
+/// Layers of cells of the rotor's grid that tiles of this rank have, from the hub on.
+std::vector<char> layers_of_tiles(const GridStore& store, const MadeRotorGrid& made) {
+  std::vector<char> wanted(std::size_t(made.maker->layers()), 0);
+  for (const int t : store.owned()) {
+    const Box box = block_box(store.tiling(), t);
+    const int of_sector = store.tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector;
+    const int begin = of_sector == 1 ? made.span_cells() : 0;  // the plug, from the tip on
+    std::fill(wanted.begin() + begin + box.low[2], wanted.begin() + begin + box.high[2], 1);
+  }
+  return wanted;
+}
+}  // namespace
+
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
                              std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told)
     : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, told)), start_(hub_pose(setup.rotor)) {
   const RotorOptions& rotor = setup.rotor;
-  const MultiBlockGrid& grid = made_->grid;
 
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
   // turns.
   now_ = before_ = {start_};
-  MultiBlockGrid placed = steady() ? carried(grid, map_of(start_)) : MultiBlockGrid();
-  const MultiBlockGrid& solved_on = steady() ? placed : grid;
+  MultiBlockGrid placed = made_->grid;
+  if (steady()) carry(placed, map_of(start_));
   if (told) told("tiles", 0.0);
-  Tiling tiling = rotor_tiling(setup.flow, solved_on);
-  const FlowOptions flow = with_default_patches(setup.flow, tiling);
+  Tiling tiling = rotor_tiling(setup.flow, placed, made_->edges);
+  const FlowOptions flow = with_default_patches(setup.flow, placed);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
   if (!setup.ranks_may_idle) require_ranks(std::size_t(tiling.size()), ranks);
   std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
   if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);
-  store_->build_all(solved_on, !steady());
-  std::vector<std::string> sticking;
-  for (const PatchOptions& b : flow.boundaries)
-    if (sticks(b.condition)) sticking.push_back(b.patch);
-  fill_wall_distance(*store_, wall_surface(solved_on, sticking),
+  make_nodes();
+  fill_wall_distance(*store_, wall_surface(placed_walls(), placed.connections),
                      told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
 
-  std::vector<char> rows(std::size_t(grid.blocks[0].nk) + 1, 0);  // of rings, by k: those of own tiles
-  for (const int t : store_->owned()) {
-    const Box box = block_box(store_->tiling(), t);
-    if (store_->tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector == 0)
-      std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
-  }
-  pitching_ =
-      std::make_unique<BladePitching>(grid, made_->turbine, made_->spec, [&](int k) { return rows[std::size_t(k)] != 0; });
-  placed = {};
-  made_ = without_nodes(*made_);
-
+  made_ = rest_of(*made_);
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
   const Turbine& turbine = made_->turbine;
   const double tip = turbine.planform.span.back() * std::cos(turbine.precone);
@@ -151,6 +188,40 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
   solver_->gather_bands(rows_of_faces());
   if (!steady()) place({turned(-1)}, {turned(0)});
+}
+
+/// Of the tiles of this rank, and how they follow the pitch of blades: layers of the grid, made again.
+void ResolvedRotor::make_nodes() {
+  pitching_ = std::make_unique<BladePitching>(made_->grid, made_->radii, made_->turbine, made_->spec);
+  const std::vector<char> wanted = layers_of_tiles(*store_, *made_);
+  std::vector<char> rows(wanted.size() + 1, 0);  // of rings, by k: those of own tiles
+  for (const int t : store_->owned()) {
+    const Box box = block_box(store_->tiling(), t);
+    if (store_->tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector == 0)
+      std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
+  }
+  store_->begin_parts();
+  const int layers = int(wanted.size());
+  for (int first = 0; first < layers; ++first) {
+    if (!wanted[std::size_t(first)]) continue;
+    int last = first;
+    while (last < layers && last < first + layers_at_once && wanted[std::size_t(last)]) ++last;
+    GridLayers part = made_->maker->make(first, last);
+    pitching_->add_rows(part, [&](int k) { return rows[std::size_t(k)] != 0; });
+    if (steady()) carry(part.grid, map_of(start_));
+    store_->take(part);
+    first = last - 1;
+  }
+  store_->end_parts(!steady());
+}
+
+std::vector<WallSurface::Face> ResolvedRotor::placed_walls() const {
+  std::vector<WallSurface::Face> faces = made_->walls;
+  const RigidMap here = map_of(start_);
+  if (steady())
+    for (WallSurface::Face& face : faces)
+      for (Eigen::Vector3d& x : face) x = here.rotation * x + here.translation;
+  return faces;
 }
 
 // ---- motion

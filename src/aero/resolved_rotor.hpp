@@ -16,6 +16,7 @@
 
 #include "runtime/executor/executor.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/grid/wall_distance.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/rotor_grid/motion.hpp"
@@ -37,11 +38,16 @@ struct SpanLoad {
   StationLoad friction;  ///< friction's part [N/m]
 };
 
-/// The grid that a scene's rotor turns with, in the rotor's frame: what making it costs is spent once for all solvers on it.
+/// The grid that a scene's rotor turns with, in the rotor's frame, looked through once for all solvers on it. Its nodes are
+/// nowhere all at once: a solver has those of its own tiles made again.
 struct MadeRotorGrid {
   Turbine turbine;
   RotorGridSpec spec;
-  MultiBlockGrid grid;
+  std::shared_ptr<const RotorGridMaker> maker;
+  MultiBlockGrid grid;        ///< without nodes
+  std::vector<double> radii;  ///< of the surfaces of nodes from the hub on [m]
+  EdgeLengths edges;
+  std::vector<WallSurface::Face> walls;             ///< of the patches that the gas sticks to
   std::vector<std::vector<BladeStation>> stations;  ///< by blade
   std::array<double, 3> moments{};                  ///< of the nodes: their number and two sums, which tell grids apart
 
@@ -50,9 +56,8 @@ struct MadeRotorGrid {
   int radial_cells() const { return spec.sizes.radial() >> spec.coarsen; }  ///< from hub to outer radius
 };
 /// How the grid of a rotor is cut into tiles: lines of cells from the blades stay whole.
-Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid);
-/// Throws scene::SceneError where the scene does not make a grid fit for use. A ResolvedRotor keeps it without its nodes, which
-/// would be the largest array of a rank: its own tiles have theirs.
+Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const EdgeLengths& edges);
+/// Throws scene::SceneError where the scene does not make a grid fit for use.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
 
 /// Where a rotor is.
@@ -77,7 +82,7 @@ class ResolvedRotor {
   FlowSolver& solver() { return *solver_; }
   const FlowSolver& solver() const { return *solver_; }
   GridStore& store() { return *store_; }
-  const MadeRotorGrid& made() const { return *made_; }  ///< without nodes
+  const MadeRotorGrid& made() const { return *made_; }  ///< without what only its making takes
   bool steady() const { return setup_.dt == 0.0; }
 
   /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.
@@ -120,6 +125,8 @@ class ResolvedRotor {
   void restore(const Snapshot& from);
 
  private:
+  void make_nodes();
+  std::vector<WallSurface::Face> placed_walls() const;
   LoadBands rows_of_faces() const;
   std::vector<SpanLoad> span_loads(std::span<const double> sums) const;
   std::vector<BlockPose> block_poses(const RotorPlace& place) const;

@@ -112,9 +112,8 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   size.sectors = spec.whole ? turbine.blades : 1;
   size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
   size.stations = spec.sizes.span >> spec.coarsen;
-  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order),
-               nodes = sizeof(double) * 3.0 * double(size.cells);
-  size.bytes = size.sectors * sector_bytes(kind, spec) + nodes + (kind.moving ? state : 0.0);
+  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
+  size.bytes = size.sectors * sector_bytes(kind, spec) + (kind.moving ? state : 0.0);
   size.bytes_of_checkpoint = state;
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(setup.flow);
   return size;

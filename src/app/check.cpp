@@ -336,13 +336,13 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
   if (const std::string note = far_side_note(grid); !note.empty()) fmt::print("  note: {}\n", note);
 }
 
-/// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of millions of cells, which takes
-/// minutes.
+/// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of so many cells that it takes
+/// more than some seconds.
 void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
-  constexpr long made_at_most = 300'000;
+  constexpr long made_at_most = 2'000'000;
   if (aero::resolved_rotor_size(setup).cells > made_at_most) return;
   const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
-  aero::require_ranks(std::size_t(aero::rotor_tiling(setup.flow, made->grid).size()), ranks);
+  aero::require_ranks(std::size_t(aero::rotor_tiling(setup.flow, made->grid, made->edges).size()), ranks);
 }
 
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.

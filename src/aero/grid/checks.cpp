@@ -36,7 +36,7 @@ class Checker {
     if (!faults_.empty()) return faults_;
     for (const Connection& c : grid_.connections) connection(c);
     coverage();
-    for (int b = 0; b < int(grid_.blocks.size()); ++b) volumes(b);
+    for (int b = 0; b < int(grid_.blocks.size()) && options_.nodes; ++b) volumes(b);
     return faults_;
   }
 
@@ -54,7 +54,7 @@ class Checker {
       if (n[d] < least) fault("{} has {} cells in {}: at least {} are needed", block_name(grid_, b), n[d], "ijk"[d], least);
       if (d == 2 && grid_.planar && n[d] != 1) fault("{} has {} cells in k: a planar grid has 1", block_name(grid_, b), n[d]);
     }
-    if (*std::min_element(n.begin(), n.end()) < 1) return;
+    if (*std::min_element(n.begin(), n.end()) < 1 || !options_.nodes) return;
     const std::size_t nodes = std::size_t(n[0] + 1) * (n[1] + 1) * (n[2] + 1);
     if (block.nodes.size() != nodes) {
       fault("{} of {} x {} x {} cells has {} nodes instead of {}", block_name(grid_, b), n[0], n[1], n[2], block.nodes.size(),
@@ -110,7 +110,7 @@ class Checker {
                      "ijk"[from[s]], c.to.high[t] - c.to.low[t]);
     }
     if (grid_.planar && std::abs(c.orientation[2]) != 3) return fault("{}: k must stay k in a planar grid", name);
-    coordinates(c, name);
+    if (options_.nodes) coordinates(c, name);
   }
 
   /// Nodes of both windows against each other; the shortest edge at a node is the measure.

@@ -13,6 +13,7 @@ namespace spindrift::aero {
 struct CheckOptions {
   double match_tolerance = 1e-3;  ///< how far two nodes that a connection joins may lie apart, in shortest edges beside them
   int examples = 3;               ///< places named of each kind of fault in each block
+  bool nodes = true;              ///< else only what can be told without them
 };
 
 /// What is wrong, each a sentence that names block and cell; empty where nothing is.

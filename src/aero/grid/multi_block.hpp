@@ -68,6 +68,24 @@ struct MultiBlockGrid {
   bool planar = false;
 };
 
+/// Layers of cells along k of a grid's blocks, with the nodes of these only: what a rank has at once of a grid that is never
+/// whole anywhere. Block b has the layers from `first[b]` of the whole on; those behind the first `count[b]` are there to be
+/// compared with, and counted in the part that follows. A block may have none, and then no nodes.
+struct GridLayers {
+  MultiBlockGrid grid;
+  std::vector<int> first, count;
+};
+
+/// What of a window of a part lies on layers that it counts; empty (high[1] <= low[1]) where nothing does.
+inline Window counted(const GridLayers& part, Window w) {
+  const int count = part.count[std::size_t(w.block)], nk = part.grid.blocks[std::size_t(w.block)].nk;
+  if (direction_of(w.side) != 2)
+    w.high[1] = w.high[1] < count ? w.high[1] : count;  // k is the second direction along the side
+  else if (at_end(w.side) ? count < nk : count == 0)
+    w.high[1] = w.low[1];
+  return w;
+}
+
 /// Least and greatest coordinates [m].
 struct Corners {
   Eigen::Vector3d low, high;

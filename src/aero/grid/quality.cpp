@@ -92,6 +92,25 @@ void of_slab(GridQuality& q, const MultiBlockGrid& grid, int b, int k) {
     }
 }
 
+/// Of the first `count` layers of each block, which begins at layer `first` of the whole.
+GridQuality quality_of(const MultiBlockGrid& grid, const std::vector<int>& first, const std::vector<int>& count) {
+  std::vector<std::pair<int, int>> slabs;
+  for (int b = 0; b < int(grid.blocks.size()); ++b)
+    for (int k = 0; k < count[b]; ++k) slabs.emplace_back(b, k);
+  std::vector<GridQuality> parts(slabs.size());
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t s = 0; s < slabs.size(); ++s) of_slab(parts[s], grid, slabs[s].first, slabs[s].second);
+  GridQuality q;
+  for (const GridQuality& part : parts) merge(q, part);
+  for (const auto e :
+       {&GridQuality::min_volume, &GridQuality::scaled_jacobian, &GridQuality::max_volume, &GridQuality::aspect_ratio,
+        &GridQuality::skewness, &GridQuality::non_orthogonality, &GridQuality::stretch, &GridQuality::volume_ratio})
+    if ((q.*e).block >= 0) (q.*e).k += first[(q.*e).block];
+  return q;
+}
+
+}  // namespace
+
 void merge(GridQuality& all, const GridQuality& part) {
   const auto place = [](const Extreme& e) { return Place{e.block, e.k, e.j, e.i, e.at}; };
   all.cells += part.cells, all.volume += part.volume;
@@ -102,19 +121,13 @@ void merge(GridQuality& all, const GridQuality& part) {
     if ((part.*e).block >= 0) most(all.*e, (part.*e).value, place(part.*e));
 }
 
-}  // namespace
-
 GridQuality grid_quality(const MultiBlockGrid& grid) {
-  std::vector<std::pair<int, int>> slabs;
-  for (int b = 0; b < int(grid.blocks.size()); ++b)
-    for (int k = 0; k < grid.blocks[b].nk; ++k) slabs.emplace_back(b, k);
-  std::vector<GridQuality> parts(slabs.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t s = 0; s < slabs.size(); ++s) of_slab(parts[s], grid, slabs[s].first, slabs[s].second);
-  GridQuality q;
-  for (const GridQuality& part : parts) merge(q, part);
-  return q;
+  std::vector<int> all;
+  for (const Block& b : grid.blocks) all.push_back(b.nk);
+  return quality_of(grid, std::vector<int>(all.size(), 0), all);
 }
+
+GridQuality grid_quality(const GridLayers& part) { return quality_of(part.grid, part.first, part.count); }
 
 std::string describe(const GridQuality& q, const MultiBlockGrid& grid) {
   std::string text = fmt::format("{} cells in {} blocks, {:.6g} m3\n", q.cells, grid.blocks.size(), q.volume);

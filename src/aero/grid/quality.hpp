@@ -32,6 +32,10 @@ struct GridQuality {
 
 /// Volumes need not be positive; a planar grid's k is left out.
 GridQuality grid_quality(const MultiBlockGrid& grid);
+/// Of the layers that a part counts; cells have their numbers in the whole.
+GridQuality grid_quality(const GridLayers& part);
+/// Adds what another part has.
+void merge(GridQuality& all, const GridQuality& part);
 
 /// A table for the terminal, one figure a line with its place.
 std::string describe(const GridQuality& quality, const MultiBlockGrid& grid);

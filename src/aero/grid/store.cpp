@@ -51,7 +51,7 @@ std::size_t TileGeometry::bytes() const {
   return sum;
 }
 
-std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar) {
+std::unique_ptr<TileGeometry> empty_geometry(const Tile& tile, bool planar) {
   auto geometry = std::make_unique<TileGeometry>();
   TileGeometry& g = *geometry;
   g.node_box = BoxLayout(tile.ni + 1, tile.nj + 1, tile.nk + 1);
@@ -65,18 +65,26 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
   std::ranges::fill(g.volume_data.span(), 1.0);  // padding is divided by
   std::ranges::fill(g.wall_distance_data.span(), std::numeric_limits<double>::infinity());
   for (int d = 0; d < 3; ++d) g.face_data[d] = AlignedArray<double>(g.face_box[d].size(3));
+  return geometry;
+}
 
+void copy_nodes(TileGeometry& g, const Tile& tile, const Block& piece, int first) {
   // Nodes lie between cells: along a direction walked backwards, node n is above cell n - 1 of the block.
-  const Block& block = grid.blocks[tile.block];
   const IndexMap& map = tile.to_block;
   BoxView<double> x = g.nodes();
   for_box(g.node_box, [&](int k, int j, int i) {
     Index at = map({i, j, k});
     for (int d = 0; d < 3; ++d)
       if (map.sign(d) < 0) at[map.target(d)] += 1;
-    set_vector(x, k, j, i, block.nodes[block.node(at[2], at[1], at[0])]);
+    at[2] -= first;
+    if (at[2] >= 0 && at[2] <= piece.nk) set_vector(x, k, j, i, piece.nodes[piece.node(at[2], at[1], at[0])]);
   });
-  update_metrics(g, planar);
+}
+
+std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar) {
+  auto geometry = empty_geometry(tile, planar);
+  copy_nodes(*geometry, tile, grid.blocks[tile.block]);
+  update_metrics(*geometry, planar);
   return geometry;
 }
 
@@ -241,6 +249,28 @@ void GridStore::build(int tile, const MultiBlockGrid& grid, bool moving) {
 
 void GridStore::build_all(const MultiBlockGrid& grid, bool moving) {
   for (const int t : owned_) build(t, grid, moving);
+  fill_local_geometry();
+}
+
+void GridStore::begin_parts() {
+  for (const int t : owned_) geometry_[t] = empty_geometry(tiling_.tiles[t], tiling_.planar);
+}
+
+void GridStore::take(const GridLayers& part) {
+  for (const int t : owned_) {
+    const Tile& tile = tiling_.tiles[t];
+    const Block& piece = part.grid.blocks[tile.block];
+    const Box box = block_box(tiling_, t);
+    const int first = part.first[tile.block];
+    if (piece.nk > 0 && box.low[2] <= first + piece.nk && first <= box.high[2]) copy_nodes(*geometry_[t], tile, piece, first);
+  }
+}
+
+void GridStore::end_parts(bool moving) {
+  for (const int t : owned_) {
+    update_metrics(*geometry_[t], tiling_.planar);
+    if (moving) make_movable(*geometry_[t]);
+  }
   fill_local_geometry();
 }
 

@@ -69,6 +69,10 @@ struct TileGeometry {
   std::size_t bytes() const;
 };
 
+/// The arrays of a tile; nodes and what follows from them are still to come.
+std::unique_ptr<TileGeometry> empty_geometry(const Tile& tile, bool planar);
+/// Copies those of a tile's nodes that a piece of its block has; `first`: the block's layer that the piece begins with.
+void copy_nodes(TileGeometry& geometry, const Tile& tile, const Block& piece, int first = 0);
 /// Copies a tile's nodes out of its block and builds faces, volumes, centres. Ghosts of volume and centre are filled by
 /// fill_boundary_geometry and by the links (geometry_quantities).
 std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Tile& tile, bool planar);
@@ -120,6 +124,11 @@ class GridStore {
   void build(int tile, const MultiBlockGrid& grid, bool moving);
   /// Builds all owned tiles one after the other and fills what ghosts can be filled without messages.
   void build_all(const MultiBlockGrid& grid, bool moving = false);
+  /// The same of a grid that comes in parts: first the arrays, then the nodes of all layers that hold owned tiles, in any order,
+  /// then what follows from them.
+  void begin_parts();
+  void take(const GridLayers& part);
+  void end_parts(bool moving);
   /// Ghost centres and volumes beyond boundaries and from tiles of this rank; those of other ranks come by pack and unpack.
   void fill_local_geometry() { fill_local_geometry(tiling_.periodic); }
   /// With the periodic maps of a grid that has moved (moved_maps).

@@ -55,23 +55,6 @@ std::vector<std::vector<Passage>> passages(const MultiBlockGrid& grid, std::vect
   return found;
 }
 
-/// Mean logarithm of the cells' edge lengths in each direction: the shortest direction is where neighbours couple strongest.
-std::array<double, 3> mean_log_edges(const Block& b) {
-  std::array<double, 3> sum{};
-  const int step_j = std::max(1, b.nj / 16), step_k = std::max(1, b.nk / 16), step_i = std::max(1, b.ni / 16);
-  long count = 0;
-  for (int k = 0; k < b.nk; k += step_k)
-    for (int j = 0; j < b.nj; j += step_j)
-      for (int i = 0; i < b.ni; i += step_i, ++count) {
-        const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
-        const Eigen::Vector3d* next[] = {&b.nodes[b.node(k, j, i + 1)], &b.nodes[b.node(k, j + 1, i)],
-                                         &b.nodes[b.node(k + 1, j, i)]};
-        for (int d = 0; d < 3; ++d) sum[d] += std::log(std::max((*next[d] - x).norm(), 1e-300));
-      }
-  for (double& s : sum) s /= double(count);
-  return sum;
-}
-
 /// The direction of each block's lines, and whether they are the lines of a wall (then they stay whole).
 struct Lines {
   int direction = 0;
@@ -79,7 +62,7 @@ struct Lines {
 };
 
 std::vector<Lines> choose_lines(const MultiBlockGrid& grid, std::span<const std::string> walls,
-                                const std::vector<std::vector<Passage>>& passages) {
+                                const std::vector<std::vector<Passage>>& passages, const EdgeLengths& lengths) {
   std::vector<Lines> lines(grid.blocks.size());
   std::vector<std::array<long, 3>> wall_faces(grid.blocks.size());
   for (const Boundary& b : grid.boundaries)
@@ -104,7 +87,7 @@ std::vector<Lines> choose_lines(const MultiBlockGrid& grid, std::span<const std:
   }
   for (int b = 0; b < int(grid.blocks.size()); ++b) {
     if (lines[b].of_wall) continue;
-    const auto edges = mean_log_edges(grid.blocks[b]);
+    const auto edges = lengths.of(b);  // neighbours couple strongest along the shortest
     const int directions = grid.planar ? 2 : 3;
     for (int d = 1; d < directions; ++d)
       if (edges[d] < edges[lines[b].direction] - 0.1) lines[b].direction = d;  // a tenth: isotropic blocks keep their own i
@@ -306,11 +289,52 @@ int Tiling::patch(std::string_view name) const {
   return found == patches.end() ? -1 : int(found - patches.begin());
 }
 
+EdgeLengths::EdgeLengths(const MultiBlockGrid& whole) {
+  for (const Block& b : whole.blocks) blocks_.push_back({b.cells(), {}, 0});
+}
+
+EdgeLengths EdgeLengths::of_whole(const MultiBlockGrid& grid) {
+  EdgeLengths edges(grid);
+  for (std::size_t n = 0; n < grid.blocks.size(); ++n) edges.add(int(n), grid.blocks[n], 0, grid.blocks[n].nk);
+  return edges;
+}
+
+void EdgeLengths::add(const GridLayers& layers) {
+  for (std::size_t n = 0; n < blocks_.size(); ++n) add(int(n), layers.grid.blocks[n], layers.first[n], layers.count[n]);
+}
+
+void EdgeLengths::add(int number, const Block& b, int first, int count) {
+  Sums& to = blocks_[number];
+  const int step_i = std::max(1, to.cells[0] / 16), step_j = std::max(1, to.cells[1] / 16),
+            step_k = std::max(1, to.cells[2] / 16);
+  for (int k = 0; k < count; ++k) {
+    if ((first + k) % step_k != 0) continue;
+    for (int j = 0; j < b.nj; j += step_j)
+      for (int i = 0; i < b.ni; i += step_i, ++to.count) {
+        const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
+        const Eigen::Vector3d* next[] = {&b.nodes[b.node(k, j, i + 1)], &b.nodes[b.node(k, j + 1, i)],
+                                         &b.nodes[b.node(k + 1, j, i)]};
+        for (int d = 0; d < 3; ++d) to.sum[d] += std::log(std::max((*next[d] - x).norm(), 1e-300));
+      }
+  }
+}
+
+std::array<double, 3> EdgeLengths::of(int block) const {
+  std::array<double, 3> mean = blocks_[block].sum;
+  for (double& m : mean) m /= double(blocks_[block].count);
+  return mean;
+}
+
 Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options) {
+  return make_tiling(grid, walls, options, EdgeLengths::of_whole(grid));
+}
+
+Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options,
+                   const EdgeLengths& edges) {
   Tiling tiling;
   tiling.planar = grid.planar;
   const auto open = passages(grid, tiling.periodic);
-  const auto lines = choose_lines(grid, walls, open);
+  const auto lines = choose_lines(grid, walls, open, edges);
   const auto along = choose_along(grid, options.sticky, open);
   std::vector<Rows> rows;
   for (int b = 0; b < int(grid.blocks.size()); ++b) {

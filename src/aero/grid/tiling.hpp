@@ -4,6 +4,7 @@
 // set up; tested in tests/src/aero/grid/tiling_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -90,8 +91,31 @@ struct Tiling {
   int patch(std::string_view name) const;
 };
 
+/// Mean logarithms of the edge lengths of each block's cells, from samples: all that a tiling takes of the nodes.
+class EdgeLengths {
+ public:
+  EdgeLengths() = default;
+  explicit EdgeLengths(const MultiBlockGrid& whole);  ///< of its blocks, whose nodes are still to come
+  static EdgeLengths of_whole(const MultiBlockGrid& grid);
+  void add(const GridLayers& layers);         ///< each layer once, from the first on
+  std::array<double, 3> of(int block) const;  ///< by direction; of a block whose layers are all added
+
+ private:
+  void add(int number, const Block& block, int first, int count);
+
+  struct Sums {
+    Index cells{};
+    std::array<double, 3> sum{};
+    long count = 0;
+  };
+  std::vector<Sums> blocks_;
+};
+
 /// `walls` names the patches whose normal direction becomes i. The grid must have passed check() (checks.hpp).
 Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options = {});
+/// The same of a grid without nodes.
+Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options,
+                   const EdgeLengths& edges);
 
 /// Tiles and what passes between them, for runtime/partition: cost in cells, edges in ghost cells.
 runtime::BlockGraph tile_graph(const Tiling& tiling);

@@ -62,26 +62,47 @@ double WallSurface::distance(const Eigen::Vector3d& p, int& face) const {
   return std::sqrt(least);
 }
 
-WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches) {
+namespace {
+void add_faces(const MultiBlockGrid& grid, const Window& w, std::vector<WallSurface::Face>& faces) {
+  const Block& block = grid.blocks[w.block];
+  const int d = direction_of(w.side);
+  const auto [u, v] = along(w.side);
+  Index at{};
+  at[d] = at_end(w.side) ? block.cells()[d] : 0;
+  const auto corner = [&, u = u, v = v](int du, int dv) {
+    Index n = at;
+    n[u] += du, n[v] += dv;
+    return block.nodes[block.node(n[2], n[1], n[0])];
+  };
+  for (at[v] = w.low[1]; at[v] < w.high[1]; ++at[v])
+    for (at[u] = w.low[0]; at[u] < w.high[0]; ++at[u]) faces.push_back({corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
+}
+bool named(const Boundary& b, std::span<const std::string> patches) {
+  return std::find(patches.begin(), patches.end(), b.patch) != patches.end();
+}
+}  // namespace
+
+std::vector<WallSurface::Face> wall_faces(const MultiBlockGrid& grid, std::span<const std::string> patches) {
   std::vector<WallSurface::Face> faces;
-  for (const Boundary& b : grid.boundaries) {
-    if (std::find(patches.begin(), patches.end(), b.patch) == patches.end()) continue;
-    const Block& block = grid.blocks[b.where.block];
-    const int d = direction_of(b.where.side);
-    const auto [u, v] = along(b.where.side);
-    Index at{};
-    at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
-    const auto corner = [&, u = u, v = v](int du, int dv) {
-      Index n = at;
-      n[u] += du, n[v] += dv;
-      return block.nodes[block.node(n[2], n[1], n[0])];
-    };
-    for (at[v] = b.where.low[1]; at[v] < b.where.high[1]; ++at[v])
-      for (at[u] = b.where.low[0]; at[u] < b.where.high[0]; ++at[u])
-        faces.push_back({corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)});
-  }
+  for (const Boundary& b : grid.boundaries)
+    if (named(b, patches)) add_faces(grid, b.where, faces);
+  return faces;
+}
+
+std::vector<WallSurface::Face> wall_faces(const GridLayers& part, std::span<const std::string> patches) {
+  std::vector<WallSurface::Face> faces;
+  for (const Boundary& b : part.grid.boundaries)
+    if (named(b, patches)) add_faces(part.grid, counted(part, b.where), faces);
+  return faces;
+}
+
+WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches) {
+  return wall_surface(wall_faces(grid, patches), grid.connections);
+}
+
+WallSurface wall_surface(std::vector<WallSurface::Face> faces, std::span<const Connection> connections) {
   std::vector<RigidMap> images;
-  for (const Connection& c : grid.connections) {
+  for (const Connection& c : connections) {
     if (!c.periodic) continue;
     const RigidMap& map = *c.periodic;
     const RigidMap back{map.rotation.transpose(), -(map.rotation.transpose() * map.translation)};

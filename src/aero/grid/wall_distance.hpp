@@ -46,7 +46,12 @@ class WallSurface {
   BoxTree tree_;             ///< whose order the faces have
 };
 
-/// All faces of the named patches, and their images through periodic connections (one step each way).
+/// Faces of the named patches.
+std::vector<WallSurface::Face> wall_faces(const MultiBlockGrid& grid, std::span<const std::string> patches);
+/// The same of the layers that a part counts.
+std::vector<WallSurface::Face> wall_faces(const GridLayers& part, std::span<const std::string> patches);
+/// These faces, and their images through periodic connections (one step each way).
+WallSurface wall_surface(std::vector<WallSurface::Face> faces, std::span<const Connection> connections);
 WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches);
 
 /// Distance of every cell centre of a tile; infinite where the surface is empty.

@@ -32,7 +32,7 @@ MultiBlockGrid coarsened(const MultiBlockGrid& fine) {
   for (int n = 0; n < int(fine.blocks.size()); ++n) {
     const Block& f = fine.blocks[std::size_t(n)];
     Block c{.name = f.name, .ni = half(f.ni, fine, n), .nj = half(f.nj, fine, n), .nk = half(f.nk, fine, n)};
-    for (int k = 0; k <= c.nk; ++k)
+    for (int k = 0; k <= c.nk && !f.nodes.empty(); ++k)
       for (int j = 0; j <= c.nj; ++j)
         for (int i = 0; i <= c.ni; ++i) c.nodes.push_back(f.nodes[f.node(2 * k, 2 * j, 2 * i)]);
     grid.blocks.push_back(std::move(c));

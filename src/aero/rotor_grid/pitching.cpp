@@ -29,29 +29,47 @@ constexpr double slide_chords = 1.0;  // height above the hub cylinder over whic
 
 }  // namespace
 
+std::vector<double> surface_radii(const Block& ring) {
+  std::vector<double> radii;
+  for (int k = 0; k <= ring.nk; ++k) radii.push_back(radius(ring.nodes[ring.node(k, 0, 0)]));
+  return radii;
+}
+
 BladePitching::BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec,
                              const std::function<bool(int k)>& needed)
+    : BladePitching(grid, surface_radii(grid.blocks[0]), turbine, spec) {
+  add_rows(grid.blocks[0], 0, needed);
+}
+
+BladePitching::BladePitching(const MultiBlockGrid& described, std::span<const double> radii, const Turbine& turbine,
+                             const RotorGridSpec& spec)
     : blades_(turbine.blades),
       precone_(turbine.precone),
       hub_radius_(spec.hub_radius_m),
       root_chord_(turbine.planform.chord.front()),
+      ring_share_(radii.size()),
       span_(spec.sizes.span >> spec.coarsen),
-      ring_row_(grid.blocks[0].ni + 1) {
-  const Block& ring = grid.blocks[0];
-  const double tip = radius(ring.nodes[ring.node(span_, 0, 0)]);
-  for (int k = 0; k <= ring.nk; ++k)
-    outboard_.push_back(1.0 - smooth_step((radius(ring.nodes[ring.node(k, 0, 0)]) - tip) / (fade_radii * tip)));
-  ring_share_.resize(outboard_.size());
+      ring_row_(described.blocks[0].ni + 1) {
+  const double tip = radii[std::size_t(span_)];
+  for (const double r : radii) outboard_.push_back(1.0 - smooth_step((r - tip) / (fade_radii * tip)));
+}
+
+void BladePitching::add_rows(const GridLayers& part, const std::function<bool(int k)>& needed) {
+  add_rows(part.grid.blocks[0], part.first[0], needed);
+}
+
+void BladePitching::add_rows(const Block& ring, int first, const std::function<bool(int k)>& needed) {
   std::vector<double> length(std::size_t(ring.ni) + 1);
   for (int k = 0; k <= ring.nk; ++k) {
-    if (needed && !needed(k)) continue;
+    std::vector<double>& row = ring_share_[std::size_t(first + k)];
+    if (!row.empty() || (needed && !needed(first + k))) continue;
     for (int j = 0; j <= ring.nj; ++j) {
       for (int i = 1; i <= ring.ni; ++i)
         length[std::size_t(i)] =
             length[std::size_t(i) - 1] + (ring.nodes[ring.node(k, j, i)] - ring.nodes[ring.node(k, j, i - 1)]).norm();
       for (int i = 0; i <= ring.ni; ++i) {
         const double way = length[std::size_t(i)] / length.back();
-        ring_share_[std::size_t(k)].push_back(i == ring.ni ? 0.0 : fade(way) * outboard_[std::size_t(k)]);
+        row.push_back(i == ring.ni ? 0.0 : fade(way) * outboard_[std::size_t(first + k)]);
       }
     }
   }

@@ -116,15 +116,6 @@ class BlockMeter {
   int number_;
 };
 
-RotorGridQuality merged(const std::vector<RotorGridQuality>& parts) {
-  RotorGridQuality all;
-  for (const RotorGridQuality& p : parts) {
-    all.folded += p.folded, all.skewed += p.skewed;
-    for (std::size_t d = 0; d < 3; ++d) merge_high(all.stretch[d], p.stretch[d]);
-  }
-  return all;
-}
-
 /// Node of `to` that the node `at` of `from` is.
 Index met(const Connection& c, const Block& to, const Index& at) {
   Index node{};
@@ -169,40 +160,84 @@ std::string place(const MultiBlockGrid& grid, const Extreme& e) {
 
 }  // namespace
 
-RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vector<std::string>& walls) {
+namespace {
+
+/// Of walls: angles between their normals and the lines that leave them go to `angles`.
+void at_wall(const Block& block, const Window& w, RotorGridQuality& q, std::vector<double>& angles) {
+  const BlockMeter meter(block, w.block);
+  const int d = direction_of(w.side), a = d == 0 ? 1 : 0, b = d == 2 ? 1 : 2;
+  for (int v = w.low[1]; v < w.high[1]; ++v)
+    for (int u = w.low[0]; u < w.high[0]; ++u) {
+      Index at{};
+      at[std::size_t(d)] = at_end(w.side) ? block.cells()[std::size_t(d)] - 1 : 0;
+      at[std::size_t(a)] = u, at[std::size_t(b)] = v;
+      meter.wall(w.side, at[2], at[1], at[0], q, angles);
+      meter.line(w.side, at[2], at[1], at[0], q);
+    }
+}
+
+/// But for the general report. `windows`: where walls are.
+RotorGridQuality quality_of(const MultiBlockGrid& grid, const std::vector<int>& first, const std::vector<int>& count,
+                            const std::vector<Window>& windows) {
   std::vector<std::pair<int, int>> slabs;
   for (int b = 0; b < int(grid.blocks.size()); ++b)
-    for (int k = 0; k < grid.blocks[std::size_t(b)].nk; ++k) slabs.emplace_back(b, k);
+    for (int k = 0; k < count[std::size_t(b)]; ++k) slabs.emplace_back(b, k);
   std::vector<RotorGridQuality> parts(slabs.size());
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t s = 0; s < slabs.size(); ++s)
     BlockMeter(grid.blocks[std::size_t(slabs[s].first)], slabs[s].first).slab(slabs[s].second, parts[s]);
-  RotorGridQuality q = merged(parts);
-  q.general = grid_quality(grid);
+  RotorGridQuality q;
+  for (const RotorGridQuality& part : parts) merge(q, part);
   std::vector<double> angles;
-  for (const Boundary& boundary : grid.boundaries) {
-    const bool wall =
-        std::any_of(walls.begin(), walls.end(), [&](const std::string& w) { return boundary.patch.starts_with(w); });
-    if (!wall) continue;
-    const Window& w = boundary.where;
-    const Block& block = grid.blocks[std::size_t(w.block)];
-    const BlockMeter meter(block, w.block);
-    const int d = direction_of(w.side), a = d == 0 ? 1 : 0, b = d == 2 ? 1 : 2;
-    for (int v = w.low[1]; v < w.high[1]; ++v)
-      for (int u = w.low[0]; u < w.high[0]; ++u) {
-        Index at{};
-        at[std::size_t(d)] = at_end(w.side) ? block.cells()[std::size_t(d)] - 1 : 0;
-        at[std::size_t(a)] = u, at[std::size_t(b)] = v;
-        meter.wall(w.side, at[2], at[1], at[0], q, angles);
-        meter.line(w.side, at[2], at[1], at[0], q);
-      }
-  }
+  for (const Window& w : windows) at_wall(grid.blocks[std::size_t(w.block)], w, q, angles);
   if (!angles.empty()) {
     const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
     std::nth_element(angles.begin(), middle, angles.end());
     q.wall_orthogonality_median = *middle;
   }
   for (const Connection& c : grid.connections) q.interface_gap = std::max(q.interface_gap, gap(grid, c));
+  for (const Block& b : grid.blocks)
+    for (const Vector3d& p : b.nodes) q.reach = std::max(q.reach, p.lpNorm<Eigen::Infinity>());
+  for (Extreme* e : {&q.stretch[0], &q.stretch[1], &q.stretch[2], &q.wall_growth, &q.wall_orthogonality})
+    if (e->block >= 0) e->k += first[std::size_t(e->block)];
+  return q;
+}
+
+bool is_wall(const Boundary& boundary, const std::vector<std::string>& walls) {
+  return std::any_of(walls.begin(), walls.end(), [&](const std::string& w) { return boundary.patch.starts_with(w); });
+}
+
+}  // namespace
+
+void merge(RotorGridQuality& all, const RotorGridQuality& part) {
+  merge(all.general, part.general);
+  all.folded += part.folded, all.skewed += part.skewed;
+  for (std::size_t d = 0; d < 3; ++d) merge_high(all.stretch[d], part.stretch[d]);
+  merge_high(all.wall_growth, part.wall_growth), merge_high(all.wall_orthogonality, part.wall_orthogonality);
+  if (part.first_cell_low > 0.0)
+    all.first_cell_low = all.first_cell_low == 0.0 ? part.first_cell_low : std::min(all.first_cell_low, part.first_cell_low);
+  all.first_cell_high = std::max(all.first_cell_high, part.first_cell_high);
+  all.interface_gap = std::max(all.interface_gap, part.interface_gap), all.reach = std::max(all.reach, part.reach);
+}
+
+RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vector<std::string>& walls) {
+  std::vector<int> all;
+  for (const Block& b : grid.blocks) all.push_back(b.nk);
+  std::vector<Window> windows;
+  for (const Boundary& boundary : grid.boundaries)
+    if (is_wall(boundary, walls)) windows.push_back(boundary.where);
+  RotorGridQuality q = quality_of(grid, std::vector<int>(all.size(), 0), all, windows);
+  q.general = grid_quality(grid);
+  return q;
+}
+
+RotorGridQuality rotor_grid_quality(const GridLayers& part, const std::vector<std::string>& walls) {
+  std::vector<Window> windows;
+  for (const Boundary& boundary : part.grid.boundaries)
+    if (is_wall(boundary, walls)) windows.push_back(counted(part, boundary.where));
+  RotorGridQuality q = quality_of(part.grid, part.first, part.count, windows);
+  q.wall_orthogonality_median = 0.0;
+  q.general = grid_quality(part);
   return q;
 }
 
@@ -226,12 +261,9 @@ void require_quality(const MultiBlockGrid& grid, const RotorGridQuality& q, cons
   if (g.stretch.value > limits.stretch)
     stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}", g.stretch.value, limits.stretch), g.stretch,
          limits.stretch);
-  double reach = 0.0;
-  for (const Block& b : grid.blocks)
-    for (const Vector3d& p : b.nodes) reach = std::max(reach, p.lpNorm<Eigen::Infinity>());
-  if (q.interface_gap > limits.interface_gap * reach)
+  if (q.interface_gap > limits.interface_gap * q.reach)
     throw NumericalFailure(fmt::format("grid refused: nodes that should be one are {:.2g} m apart", q.interface_gap),
-                           "interfaces", 0, 0.0, limits.interface_gap * reach);
+                           "interfaces", 0, 0.0, limits.interface_gap * q.reach);
 }
 
 std::string describe_quality(const MultiBlockGrid& grid, const RotorGridQuality& q) {

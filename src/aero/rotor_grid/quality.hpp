@@ -22,10 +22,15 @@ struct RotorGridQuality {
   double wall_orthogonality_median = 0.0;  ///< [deg]; zero where there is no wall
   double first_cell_low = 0.0, first_cell_high = 0.0;  ///< heights of wall cells [m]
   double interface_gap = 0.0;  ///< largest distance of nodes that a connection says are one [m]; periodic ones mapped
+  double reach = 0.0;          ///< largest coordinate [m]
 };
 
 /// Walls are the patches whose names begin with one of `walls`. Same bits for any number of threads.
 RotorGridQuality rotor_grid_quality(const MultiBlockGrid& grid, const std::vector<std::string>& walls);
+/// Of the layers that a part counts: all but growth along lines that leave it, and the median angle at walls.
+RotorGridQuality rotor_grid_quality(const GridLayers& part, const std::vector<std::string>& walls);
+/// Adds what another part has.
+void merge(RotorGridQuality& all, const RotorGridQuality& part);
 
 /// What a grid must hold to be used.
 struct QualityLimits {
@@ -35,7 +40,7 @@ struct QualityLimits {
   double interface_gap = 1e-11;     ///< at most, over the largest coordinate; periodic maps round
 };
 
-/// Throws NumericalFailure naming limit, value, block and cell.
+/// Throws NumericalFailure naming limit, value, block and cell. The grid need not have nodes.
 void require_quality(const MultiBlockGrid& grid, const RotorGridQuality& quality, const QualityLimits& limits = {});
 
 /// Both reports as text, one line a measure with the worst cell.

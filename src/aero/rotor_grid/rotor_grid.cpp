@@ -37,21 +37,27 @@ std::array<Part, 8> parts(const RotorGridSizes& z) {
            {"ne", J2, J3, I2, I3}}};
 }
 
-/// Blocks and connections of one sector after another; windows are given as whole sides or parts of them.
+/// Blocks and connections of one sector after another, of the layers [first, last) of cells; windows are given as whole sides or
+/// parts of them.
 class Assembly {
  public:
-  Assembly(const Turbine& turbine, const RotorGridSpec& spec, const RotorLayout& layout, const GridProgress& told)
-      : spec_(spec),
-        z_(spec.sizes),
+  Assembly(const RotorGridSpec& spec, const RotorLayout& layout, int blades, int first, int last, const GridProgress& told)
+      : z_(spec.sizes),
         layout_(layout),
         told_(told),
-        blades_(turbine.blades),
-        sectors_(spec.whole ? turbine.blades : 1) {}
+        blades_(blades),
+        sectors_(spec.whole ? blades : 1),
+        first_(first),
+        last_(last),
+        inboard_(std::clamp(z_.span, first, last) - first) {}
 
-  MultiBlockGrid make(const BladeSurface& blade) {
-    make_first_sector(blade);
+  /// Without nodes where there is no blade.
+  MultiBlockGrid make(const BladeSurface* blade) {
+    nodes_ = blade != nullptr;
+    lay_out_first_sector();
+    if (nodes_) make_first_sector(*blade);
     for (int b = 1; b < sectors_; ++b) turn_sector(b);
-    if (sectors_ > 1) join_sides();
+    if (sectors_ > 1 && nodes_) join_sides();
     for (int b = 0; b < sectors_; ++b) connect(b);
     return std::move(grid_);
   }
@@ -60,7 +66,7 @@ class Assembly {
   Block& block(int sector, int which) { return grid_.blocks[std::size_t(sector * blocks_of_sector + which)]; }
   Block empty(const std::string& name, int ni, int nj, int nk) const {
     Block b{.name = name, .ni = ni, .nj = nj, .nk = nk};
-    b.nodes.resize(std::size_t(ni + 1) * std::size_t(nj + 1) * std::size_t(nk + 1));
+    if (nodes_ && nk > 0) b.nodes.resize(std::size_t(ni + 1) * std::size_t(nj + 1) * std::size_t(nk + 1));
     return b;
   }
 
@@ -69,15 +75,19 @@ class Assembly {
     return {p.y(), -r * std::sin(theta), r * std::cos(theta)};
   }
 
-  void make_first_sector(const BladeSurface& blade) {
-    const int nk = z_.radial();
+  void lay_out_first_sector() {
+    const int nk = last_ - first_;
     grid_.blocks.push_back(empty("ring_1", z_.layers, z_.round, nk));
-    grid_.blocks.push_back(empty("plug_1", z_.chordwise(), z_.edge, z_.outboard));
+    grid_.blocks.push_back(empty("plug_1", z_.chordwise(), z_.edge, nk - inboard_));
     for (const Part& p : parts(z_)) grid_.blocks.push_back(empty(fmt::format("{}_1", p.name), p.J1 - p.J0, p.I1 - p.I0, nk));
+  }
+
+  void make_first_sector(const BladeSurface& blade) {
+    const int nk = last_ - first_;
     int made = 0;
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k <= nk; ++k) {
-      fill_plane(make_plane(blade, layout_, k), k);
+      fill_plane(make_plane(blade, layout_, first_ + k), k);
       if (!told_) continue;
 #pragma omp critical(rotor_grid_progress)
       told_("rotor grid", double(++made) / double(nk + 1));
@@ -88,10 +98,9 @@ class Assembly {
     Block& o = block(0, ring);
     for (int j = 0; j <= z_.round; ++j)
       for (int i = 0; i <= z_.layers; ++i) o.nodes[o.node(k, j, i)] = point(plane.r, plane.ring_nodes[plane.ring.at(j, i)]);
-    if (k >= z_.span) {
-      Block& inside = block(0, plug);
+    if (Block& inside = block(0, plug); k >= inboard_ && inside.nk > 0) {
       for (int j = 0; j <= inside.nj; ++j)
-        for (int i = 0; i <= inside.ni; ++i) inside.nodes[inside.node(k - z_.span, j, i)] = point(plane.r, plane.plug(i, j));
+        for (int i = 0; i <= inside.ni; ++i) inside.nodes[inside.node(k - inboard_, j, i)] = point(plane.r, plane.plug(i, j));
     }
     const auto all = parts(z_);
     for (int m = 0; m < 8; ++m) {
@@ -147,7 +156,7 @@ class Assembly {
 
   void connect(int b) {
     join(side(b, ring, Side::j_max), side(b, ring, Side::j_min));
-    connect_plug(b);
+    if (has_plug()) connect_plug(b);
     connect_box(b);
     const auto rows = [&](int low, int high) { join(side(b, low, Side::j_max), side(b, high, Side::j_min)); };
     const auto columns = [&](int low, int high) { join(side(b, low, Side::i_max), side(b, high, Side::i_min)); };
@@ -164,7 +173,7 @@ class Assembly {
 
   /// Ring beyond the tip, round the plug; the plug's tail is met by the ring's first and last cells.
   void connect_plug(int b) {
-    const Window inner = part(side(b, ring, Side::i_min), 1, z_.span, z_.radial());
+    const Window inner = part(side(b, ring, Side::i_min), 1, inboard_, last_ - first_);
     const int half = z_.round / 2, end = z_.edge / 2;
     const auto tail = side(b, plug, Side::i_min);
     join(part(inner, 0, 0, end), part(tail, 0, 0, end), {-1, -2, 3});
@@ -206,40 +215,74 @@ class Assembly {
   void bound(int b) {
     const auto patch = [&](const Window& where, const std::string& name) { grid_.boundaries.push_back({where, name}); };
     const std::string wall = fmt::format("blade_{}", b + 1);
-    patch(part(side(b, ring, Side::i_min), 1, 0, z_.span), wall);
-    patch(side(b, plug, Side::k_min), wall);
-    patch(side(b, plug, Side::k_max), "far");
+    const std::string inner = first_ == 0 ? "hub" : "cut", outer = last_ == z_.radial() ? "far" : "cut";
+    if (inboard_ > 0) patch(part(side(b, ring, Side::i_min), 1, 0, inboard_), wall);
+    if (has_plug()) patch(side(b, plug, Side::k_min), first_ <= z_.span ? wall : "cut"), patch(side(b, plug, Side::k_max), outer);
     for (int m = 0; m < blocks_of_sector; ++m)
-      if (m != plug) patch(side(b, m, Side::k_min), "hub"), patch(side(b, m, Side::k_max), "far");
+      if (m != plug) patch(side(b, m, Side::k_min), inner), patch(side(b, m, Side::k_max), outer);
     for (const int m : {sw, w, nw}) patch(side(b, m, Side::j_min), "inflow");
     for (const int m : {se, e, ne}) patch(side(b, m, Side::j_max), "outflow");
   }
 
-  const RotorGridSpec& spec_;
+  bool has_plug() const { return inboard_ < last_ - first_; }
+
   const RotorGridSizes& z_;
   const RotorLayout& layout_;
   const GridProgress& told_;
   int blades_, sectors_;
+  int first_, last_;
+  int inboard_;  ///< layers of these that lie inboard of the tip
+  bool nodes_ = false;
   MultiBlockGrid grid_;
 };
 
-}  // namespace
+/// By how many nodes round the section the grid is turned after a pitched blade.
+int roll_of(const RotorGridSpec& spec) {
+  const int fit = 1 << spec.coarsen;
+  return fit * int(std::lround(spec.sizes.round * spec.pitch / (2.0 * pi * fit)));
+}
 
-MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told) {
+BladeSettings blade_settings(const Turbine& turbine, const RotorGridSpec& spec) {
   if (turbine.aerofoils.empty())
     throw NumericalFailure("rotor grid: the turbine file has no turbine.aerofoils, the outlines that a surface is made from",
                            "turbine", 0, 0.0);
-  const int round = spec.sizes.round;
-  const int fit = 1 << spec.coarsen;
-  const int roll = fit * int(std::lround(round * spec.pitch / (2.0 * pi * fit)));
   BladeSettings settings;
   settings.spacing = section_spacing(spec.sizes, spec.rounded_edge);
-  settings.hub_radius = spec.hub_radius_m, settings.pitch = spec.pitch, settings.roll = 2.0 * pi * roll / round;
-  const BladeSurface blade(turbine, settings);
-  const RotorLayout layout(blade, spec, turbine.blades, roll);
-  MultiBlockGrid grid = Assembly(turbine, spec, layout, told).make(blade);
-  for (int m = 0; m < spec.coarsen; ++m) grid = coarsened(grid);
-  return grid;
+  settings.hub_radius = spec.hub_radius_m, settings.pitch = spec.pitch,
+  settings.roll = 2.0 * pi * roll_of(spec) / spec.sizes.round;
+  return settings;
+}
+
+}  // namespace
+
+RotorGridMaker::RotorGridMaker(const Turbine& turbine, const RotorGridSpec& spec)
+    : spec_(spec),
+      blades_(turbine.blades),
+      blade_(turbine, blade_settings(turbine, spec)),
+      layout_(blade_, spec, turbine.blades, roll_of(spec)),
+      described_(fine(0, spec.sizes.radial(), false, {})) {
+  for (int m = 0; m < spec_.coarsen; ++m) described_ = coarsened(described_);
+}
+
+MultiBlockGrid RotorGridMaker::fine(int first, int last, bool nodes, const GridProgress& told) const {
+  return Assembly(spec_, layout_, blades_, first, last, told).make(nodes ? &blade_ : nullptr);
+}
+
+GridLayers RotorGridMaker::make(int first, int last, bool compared, const GridProgress& told) const {
+  const int end = std::min(layers(), compared ? last + 1 : last), tip = spec_.sizes.span >> spec_.coarsen;
+  GridLayers part;
+  part.grid = fine(first << spec_.coarsen, end << spec_.coarsen, true, told);
+  for (int m = 0; m < spec_.coarsen; ++m) part.grid = coarsened(part.grid);
+  for (std::size_t b = 0; b < part.grid.blocks.size(); ++b) {
+    const int begins = b % blocks_of_sector == plug ? tip : 0, from = std::max(first, begins);
+    part.first.push_back(from - begins), part.count.push_back(std::max(0, last - from));
+  }
+  return part;
+}
+
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told) {
+  const RotorGridMaker maker(turbine, spec);
+  return maker.make(0, maker.layers(), false, told).grid;
 }
 
 }  // namespace spindrift::aero

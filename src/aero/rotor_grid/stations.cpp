@@ -27,6 +27,21 @@ BladeStation station(const Block& b, int block, int k) {
 
 }  // namespace
 
+void add_stations(const GridLayers& part, std::vector<std::vector<BladeStation>>& blades) {
+  std::size_t blade = 0;
+  for (const Boundary& boundary : part.grid.boundaries) {
+    if (!boundary.patch.starts_with("blade_") || boundary.where.side != Side::i_min) continue;
+    if (blade == blades.size()) blades.emplace_back();
+    const Window w = counted(part, boundary.where);
+    const Block& block = part.grid.blocks[std::size_t(w.block)];
+    for (int k = w.low[1]; k < w.high[1]; ++k) {
+      blades[blade].push_back(station(block, w.block, k));
+      blades[blade].back().k += part.first[std::size_t(w.block)];
+    }
+    ++blade;
+  }
+}
+
 std::vector<std::vector<BladeStation>> blade_stations(const MultiBlockGrid& grid) {
   std::vector<std::vector<BladeStation>> blades;
   for (const Boundary& boundary : grid.boundaries) {

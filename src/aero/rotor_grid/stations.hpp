@@ -35,5 +35,7 @@ inline StationLoad load_at(const BladeStation& s, const Eigen::Vector3d& force) 
 
 /// Stations of each blade from root to tip, for a grid of make_rotor_grid: found by the walls named blade_N.
 std::vector<std::vector<BladeStation>> blade_stations(const MultiBlockGrid& grid);
+/// Appends those of the layers that a part counts.
+void add_stations(const GridLayers& part, std::vector<std::vector<BladeStation>>& blades);
 
 }  // namespace spindrift::aero
