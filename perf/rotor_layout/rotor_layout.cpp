@@ -62,5 +62,4 @@ int main(int argc, char** argv) {
   perf::Group group("rotor_layout", argc, argv);
   measure(group, "paper", 1.0, 655, 100);
   measure(group, "hundredfold", std::cbrt(100.0), 65'536, 10'000);
-
 }
