@@ -79,7 +79,14 @@ std::shared_ptr<const MadeRotorGrid> rest_of(const MadeRotorGrid& made) {
   return rest;
 }
 
-constexpr int layers_at_once = 16;  // two of eighteen surfaces are made twice
+/// Layers of a grid that a rank has at once: two of eighteen surfaces are made twice, of large grids more, so that their nodes
+/// take a quarter of a GB at most.
+int layers_at_once(const MultiBlockGrid& grid) {
+  constexpr long most_nodes = 10'000'000;
+  long nodes = 0;  // of a surface
+  for (const Block& b : grid.blocks) nodes += long(b.ni + 1) * (b.nj + 1);
+  return int(std::clamp(most_nodes / nodes - 2, 4L, 16L));
+}
 
 }  // namespace
 
@@ -116,10 +123,10 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
     if (sticks(b.condition)) sticking.push_back(b.patch);
   RotorGridQuality quality;
   Moments moments(made->grid.blocks.size());
-  const int layers = made->maker->layers();
-  for (int first = 0; first < layers; first += layers_at_once) {
+  const int layers = made->maker->layers(), some = layers_at_once(made->grid);
+  for (int first = 0; first < layers; first += some) {
     if (told) told("rotor grid", double(first) / layers);
-    const int last = std::min(layers, first + layers_at_once);
+    const int last = std::min(layers, first + some);
     const GridLayers part = made->maker->make(first, last, true);
     merge(quality, rotor_grid_quality(part, {"blade_"}));
     made->edges.add(part);
@@ -201,11 +208,11 @@ void ResolvedRotor::make_nodes() {
       std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
   }
   store_->begin_parts();
-  const int layers = int(wanted.size());
+  const int layers = int(wanted.size()), some = layers_at_once(made_->grid);
   for (int first = 0; first < layers; ++first) {
     if (!wanted[std::size_t(first)]) continue;
     int last = first;
-    while (last < layers && last < first + layers_at_once && wanted[std::size_t(last)]) ++last;
+    while (last < layers && last < first + some && wanted[std::size_t(last)]) ++last;
     GridLayers part = made_->maker->make(first, last);
     pitching_->add_rows(part, [&](int k) { return rows[std::size_t(k)] != 0; });
     if (steady()) carry(part.grid, map_of(start_));
