@@ -79,12 +79,12 @@ std::shared_ptr<const MadeRotorGrid> rest_of(const MadeRotorGrid& made) {
   return rest;
 }
 
-/// Layers of a grid that a rank has at once: two of eighteen surfaces are made twice, of large grids more, so that their nodes
-/// take a quarter of a GB at most.
-int layers_at_once(const MultiBlockGrid& grid) {
+/// Layers of a grid that a rank has at once: two of eighteen surfaces are made twice, and more of grids so large that the nodes
+/// would take more than a quarter of a GB.
+int layers_at_once(const MadeRotorGrid& made) {
   constexpr long most_nodes = 10'000'000;
-  long nodes = 0;  // of a surface
-  for (const Block& b : grid.blocks) nodes += long(b.ni + 1) * (b.nj + 1);
+  long nodes = 0;  // of a layer, before every second one is left out
+  for (const Block& b : made.grid.blocks) nodes += long(b.ni + 1) * (b.nj + 1) << 3 * made.spec.coarsen;
   return int(std::clamp(most_nodes / nodes - 2, 4L, 16L));
 }
 
@@ -123,7 +123,7 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
     if (sticks(b.condition)) sticking.push_back(b.patch);
   RotorGridQuality quality;
   Moments moments(made->grid.blocks.size());
-  const int layers = made->maker->layers(), some = layers_at_once(made->grid);
+  const int layers = made->maker->layers(), some = layers_at_once(*made);
   for (int first = 0; first < layers; first += some) {
     if (told) told("rotor grid", double(first) / layers);
     const int last = std::min(layers, first + some);
@@ -137,10 +137,12 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
     const std::vector<double> radii = surface_radii(part.grid.blocks[0]);
     made->radii.insert(made->radii.end(), radii.begin(), last == layers ? radii.end() : radii.begin() + (last - first));
   }
+  made->moments = moments.sum();
+  for (const double moment : made->moments)
+    if (!std::isfinite(moment)) throw NumericalFailure("grid refused: it has nodes that are not finite", "aero.grid", 0, 0.0);
   require_quality(made->grid, quality,
                   {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
   require_sound(made->grid, "aero.grid", {.nodes = false});
-  made->moments = moments.sum();
   return made;
 } catch (const NumericalFailure& failure) {
   throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
@@ -208,7 +210,7 @@ void ResolvedRotor::make_nodes() {
       std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
   }
   store_->begin_parts();
-  const int layers = int(wanted.size()), some = layers_at_once(made_->grid);
+  const int layers = int(wanted.size()), some = layers_at_once(*made_);
   for (int first = 0; first < layers; ++first) {
     if (!wanted[std::size_t(first)]) continue;
     int last = first;

@@ -340,7 +340,7 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
 /// more than some seconds.
 void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
   constexpr long made_at_most = 2'000'000;
-  if (aero::resolved_rotor_size(setup).cells > made_at_most) return;
+  if (aero::resolved_rotor_size(setup).cells << 3 * setup.grid.coarsen > made_at_most) return;
   const std::shared_ptr<const aero::MadeRotorGrid> made = aero::made_rotor_grid(setup);
   aero::require_ranks(std::size_t(aero::rotor_tiling(setup.flow, made->grid, made->edges).size()), ranks);
 }

@@ -7,9 +7,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/environment.hpp"
@@ -134,7 +137,7 @@ std::string misread(CLI::App& cli, int argc, char** argv) {
 
 /// Whether a launcher may have started others beside this process.
 bool may_have_others() {
-  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"})
+  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* value = std::getenv(size); value && std::atoi(value) > 1) return true;
   return false;
 }

@@ -1,5 +1,5 @@
-// Lines in the log while a large rotor grid, its tiles and its wall distances are made, which takes minutes at the paper's size.
-// Used by resolved_air.cpp and src/run/flow_case.cpp; tested in tests/src/coupling/grid_progress_test.cpp.
+// Lines in the log while a large rotor grid, its tiles and its wall distances are made, which takes half a minute at the paper's
+// size. Used by resolved_air.cpp and src/run/flow_case.cpp; tested in tests/src/coupling/grid_progress_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -68,7 +68,8 @@ History::~History() {
 }
 
 std::size_t History::add(Column column) {
-  if (file_.is_open()) throw std::logic_error("history column " + column.name + " declared after the file was opened");
+  if (file_.is_open() || statistics_)
+    throw std::logic_error("history column " + column.name + " declared after the file was opened, or statistics began");
   if (column.name.empty() || column.name.find_first_of(", \t\r\n\"") != std::string::npos)
     throw std::logic_error("history column '" + column.name + "': a name has no comma, quote or white space");
   for (const Column& other : columns_)

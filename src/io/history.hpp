@@ -40,7 +40,8 @@ class History {
   std::size_t add(Column column);
   const std::vector<Column>& columns() const { return columns_; }
 
-  /// Has statistics of all rows, kept and written, with means over these ranges of time. Before open() or resume().
+  /// Has statistics of all rows, kept and written, with means over these ranges of time. After all columns are added, before
+  /// open() or resume().
   void keep_statistics(std::vector<TimeRange> ranges);
   /// None where they are not kept, or no file is open: on other ranks.
   std::optional<HistoryStatistics> statistics() const;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "kernels/grid/metrics.hpp"
 #include "src/aero/grid/index_map.hpp"

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
@@ -157,10 +159,6 @@ std::string place(const MultiBlockGrid& grid, const Extreme& e) {
   if (e.block < 0) return "";
   return fmt::format("{} ({}, {}, {})", grid.blocks[std::size_t(e.block)].name, e.i, e.j, e.k);
 }
-
-}  // namespace
-
-namespace {
 
 /// Of walls: angles between their normals and the lines that leave them go to `angles`.
 void at_wall(const Block& block, const Window& w, RotorGridQuality& q, std::vector<double>& angles) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
@@ -41,10 +42,9 @@ std::array<Part, 8> parts(const RotorGridSizes& z) {
 /// parts of them.
 class Assembly {
  public:
-  Assembly(const RotorGridSpec& spec, const RotorLayout& layout, int blades, int first, int last, const GridProgress& told)
+  Assembly(const RotorGridSpec& spec, const RotorLayout& layout, int blades, int first, int last)
       : z_(spec.sizes),
         layout_(layout),
-        told_(told),
         blades_(blades),
         sectors_(spec.whole ? blades : 1),
         first_(first),
@@ -84,14 +84,8 @@ class Assembly {
 
   void make_first_sector(const BladeSurface& blade) {
     const int nk = last_ - first_;
-    int made = 0;
 #pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k <= nk; ++k) {
-      fill_plane(make_plane(blade, layout_, first_ + k), k);
-      if (!told_) continue;
-#pragma omp critical(rotor_grid_progress)
-      told_("rotor grid", double(++made) / double(nk + 1));
-    }
+    for (int k = 0; k <= nk; ++k) fill_plane(make_plane(blade, layout_, first_ + k), k);
   }
 
   void fill_plane(const Plane& plane, int k) {
@@ -228,7 +222,6 @@ class Assembly {
 
   const RotorGridSizes& z_;
   const RotorLayout& layout_;
-  const GridProgress& told_;
   int blades_, sectors_;
   int first_, last_;
   int inboard_;  ///< layers of these that lie inboard of the tip
@@ -260,18 +253,18 @@ RotorGridMaker::RotorGridMaker(const Turbine& turbine, const RotorGridSpec& spec
       blades_(turbine.blades),
       blade_(turbine, blade_settings(turbine, spec)),
       layout_(blade_, spec, turbine.blades, roll_of(spec)),
-      described_(fine(0, spec.sizes.radial(), false, {})) {
+      described_(fine(0, spec.sizes.radial(), false)) {
   for (int m = 0; m < spec_.coarsen; ++m) described_ = coarsened(described_);
 }
 
-MultiBlockGrid RotorGridMaker::fine(int first, int last, bool nodes, const GridProgress& told) const {
-  return Assembly(spec_, layout_, blades_, first, last, told).make(nodes ? &blade_ : nullptr);
+MultiBlockGrid RotorGridMaker::fine(int first, int last, bool nodes) const {
+  return Assembly(spec_, layout_, blades_, first, last).make(nodes ? &blade_ : nullptr);
 }
 
-GridLayers RotorGridMaker::make(int first, int last, bool compared, const GridProgress& told) const {
+GridLayers RotorGridMaker::make(int first, int last, bool compared) const {
   const int end = std::min(layers(), compared ? last + 1 : last), tip = spec_.sizes.span >> spec_.coarsen;
   GridLayers part;
-  part.grid = fine(first << spec_.coarsen, end << spec_.coarsen, true, told);
+  part.grid = fine(first << spec_.coarsen, end << spec_.coarsen, true);
   for (int m = 0; m < spec_.coarsen; ++m) part.grid = coarsened(part.grid);
   for (std::size_t b = 0; b < part.grid.blocks.size(); ++b) {
     const int begins = b % blocks_of_sector == plug ? tip : 0, from = std::max(first, begins);
@@ -280,9 +273,9 @@ GridLayers RotorGridMaker::make(int first, int last, bool compared, const GridPr
   return part;
 }
 
-MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told) {
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec) {
   const RotorGridMaker maker(turbine, spec);
-  return maker.make(0, maker.layers(), false, told).grid;
+  return maker.make(0, maker.layers()).grid;
 }
 
 }  // namespace spindrift::aero

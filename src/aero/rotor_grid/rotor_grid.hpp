@@ -13,7 +13,7 @@
 namespace spindrift::aero {
 
 /// Told now and then how far something long has come: what is being made, and the share of it that is. One call at a time, from
-/// any thread.
+/// any thread (of wall distances).
 using GridProgress = std::function<void(std::string_view what, double share)>;
 
 /// Makes the grid of a rotor, or layers of it: the nodes of a coaxial surface do not depend on those of others.
@@ -24,14 +24,14 @@ class RotorGridMaker {
   RotorGridMaker(const RotorGridMaker&) = delete;
   RotorGridMaker& operator=(const RotorGridMaker&) = delete;
 
-  int layers() const { return (spec_.sizes.radial()) >> spec_.coarsen; }  ///< of cells, from hub to outer radius
-  const MultiBlockGrid& described() const { return described_; }          ///< the whole without nodes
+  int layers() const { return spec_.sizes.radial() >> spec_.coarsen; }  ///< of cells, from hub to outer radius
+  const MultiBlockGrid& described() const { return described_; }        ///< the whole without nodes
   /// Layers [first, last) of all blocks, and with `compared` one more where there is one. Patches and connections are those of
   /// the part; where it is cut off the patch is named "cut".
-  GridLayers make(int first, int last, bool compared = false, const GridProgress& told = {}) const;
+  GridLayers make(int first, int last, bool compared = false) const;
 
  private:
-  MultiBlockGrid fine(int first, int last, bool nodes, const GridProgress& told) const;
+  MultiBlockGrid fine(int first, int last, bool nodes) const;
 
   RotorGridSpec spec_;
   int blades_;
@@ -45,6 +45,6 @@ class RotorGridMaker {
 /// turning direction, axial, radial), named by the compass with upstream in the west and the turning direction in the north.
 /// Patches: blade_1 ... blade_B (walls), hub, inflow, outflow, far. Same bits for any number of threads, and for the whole at
 /// once and in layers. Throws NumericalFailure where the surface folds.
-MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec, const GridProgress& told = {});
+MultiBlockGrid make_rotor_grid(const Turbine& turbine, const RotorGridSpec& spec);
 
 }  // namespace spindrift::aero

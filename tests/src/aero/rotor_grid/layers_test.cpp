@@ -29,9 +29,8 @@ void for_layers(const RotorGridMaker& maker, int at_once, Use&& use) {
     use(maker.make(first, std::min(maker.layers(), first + at_once), true));
 }
 
-bool same(const Extreme& a, const Extreme& b) {
-  return a.value == b.value && a.block == b.block && a.k == b.k && a.j == b.j && a.i == b.i;
-}
+/// Of cells that are worst alike, in sectors that are turned, either may be named.
+bool alike(const Extreme& a, const Extreme& b) { return a.value == b.value && a.k == b.k && a.block % 10 == b.block % 10; }
 
 std::vector<std::array<double, 12>> sorted(const std::vector<WallSurface::Face>& faces) {
   std::vector<std::array<double, 12>> numbers;
@@ -98,8 +97,10 @@ TEST_CASE("what is taken of a rotor's grid in layers is that of the whole", "[ro
   for (const auto value :
        {&GridQuality::min_volume, &GridQuality::max_volume, &GridQuality::aspect_ratio, &GridQuality::skewness,
         &GridQuality::scaled_jacobian, &GridQuality::non_orthogonality, &GridQuality::stretch, &GridQuality::volume_ratio})
-    CHECK((quality.general.*value).value == (all.general.*value).value);
-  CHECK(same(quality.wall_orthogonality, all.wall_orthogonality));
+    CHECK(alike(quality.general.*value, all.general.*value));
+  for (std::size_t d = 0; d < 3; ++d) CHECK(alike(quality.stretch[d], all.stretch[d]));
+  CHECK(quality.interface_gap == all.interface_gap);
+  CHECK(alike(quality.wall_orthogonality, all.wall_orthogonality));
   const EdgeLengths lengths = EdgeLengths::of_whole(whole);
   for (int b = 0; b < int(whole.blocks.size()); ++b) CHECK(edges.of(b) == lengths.of(b));
   const auto expected = blade_stations(whole);
@@ -115,7 +116,7 @@ TEST_CASE("what is taken of a rotor's grid in layers is that of the whole", "[ro
 }
 
 TEST_CASE("tiles and pitching blades of a rank have the same from layers as from the whole", "[rotor_grid][fast]") {
-  const RotorGridSpec spec = spec_of(1.0, 1e-3, 7.0, true);
+  const RotorGridSpec spec = one_of_three();
   const RotorGridMaker maker(dtu(), spec);
   const MultiBlockGrid whole = make_rotor_grid(dtu(), spec);
   const std::vector<std::string> walls = {"blade_1", "blade_2", "blade_3"};
