@@ -48,7 +48,7 @@ void measure(perf::Group& group, const std::string& name, double factor, int ran
   const std::string note = std::to_string(aero::resolved_rotor_size(setup).cells) + " cells, rank " + std::to_string(rank) +
                            " of " + std::to_string(ranks) + ", which has " + std::to_string(rotor.store().owned().size()) +
                            " of " + std::to_string(rotor.store().tiling().size()) + " tiles";
-  group.figure(name + "_grid", grid_s, "core-s", "made in layers and looked through: " + note);
+  group.figure(name + "_grid", grid_s, "core-s", "look at all cells, which ranks share: " + note);
   group.figure(name + "_tiles", since(begin) - grid_s, "core-s", "tiles, partition, wall distances, solver");
   group.at_most(name + "_memory", peak_MB(), "MB", 1000.0, perf::Ceiling::none, note);
 }

@@ -8,34 +8,15 @@
 #include <utility>
 
 #include "kernels/base/constants.hpp"
-#include "kernels/base/failure.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/wall_distance.hpp"
-#include "src/aero/rotor_grid/quality.hpp"
-#include "src/aero/rotor_grid/rotor_grid.hpp"
-#include "src/aero/turbine.hpp"
-#include "src/scene/error.hpp"
 
 namespace spindrift::aero {
 
 namespace {
 
 RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
-
-/// Patches that the scene does not name: blades are as asked for (slip without friction), the hub slips, the rest is the far
-/// field.
-FlowOptions with_default_patches(FlowOptions o, const MultiBlockGrid& grid) {
-  for (const Boundary& boundary : grid.boundaries) {
-    const std::string& patch = boundary.patch;
-    if (std::ranges::any_of(o.boundaries, [&](const PatchOptions& b) { return b.patch == patch; })) continue;
-    if (patch.starts_with("blade_"))
-      o.boundaries.push_back({patch, o.viscous == "none" ? Condition::slip : o.blades, true, {}});
-    else
-      o.boundaries.push_back({patch, patch == "hub" ? Condition::slip : Condition::far_field, false, {}});
-  }
-  return o;
-}
 
 /// Where the rotor is, in earth coordinates.
 void carry(MultiBlockGrid& grid, const RigidMap& map) {
@@ -45,32 +26,6 @@ void carry(MultiBlockGrid& grid, const RigidMap& map) {
     if (c.periodic) c.periodic = moved_maps(std::span(&*c.periodic, 1), map)[0];
 }
 
-/// Number of the nodes and moments of their places, by block: equal for equal grids, and hardly ever for others.
-class Moments {
- public:
-  explicit Moments(std::size_t blocks) : sums_(blocks) {}
-  void add(const GridLayers& part, bool last) {
-    for (std::size_t n = 0; n < sums_.size(); ++n) {
-      const Block& b = part.grid.blocks[n];
-      const int planes = part.count[n] + (last ? 1 : 0);
-      if (part.count[n] == 0) continue;
-      for (std::size_t p = 0; p < b.node(planes, 0, 0); ++p) {
-        const Eigen::Vector3d& x = b.nodes[p];
-        sums_[n][0] += 1.0, sums_[n][1] += x.x() + 2.0 * x.y() + 3.0 * x.z(), sums_[n][2] += x.squaredNorm();
-      }
-    }
-  }
-  std::array<double, 3> sum() const {
-    std::array<double, 3> all{};
-    for (const auto& of_block : sums_)
-      for (std::size_t d = 0; d < 3; ++d) all[d] += of_block[d];
-    return all;
-  }
-
- private:
-  std::vector<std::array<double, 3>> sums_;
-};
-
 /// What a rotor still needs once its solver is made.
 std::shared_ptr<const MadeRotorGrid> rest_of(const MadeRotorGrid& made) {
   auto rest = std::make_shared<MadeRotorGrid>();
@@ -79,13 +34,16 @@ std::shared_ptr<const MadeRotorGrid> rest_of(const MadeRotorGrid& made) {
   return rest;
 }
 
-/// Layers of a grid that a rank has at once: two of eighteen surfaces are made twice, and more of grids so large that the nodes
-/// would take more than a quarter of a GB.
-int layers_at_once(const MadeRotorGrid& made) {
-  constexpr long most_nodes = 10'000'000;
-  long nodes = 0;  // of a layer, before every second one is left out
-  for (const Block& b : made.grid.blocks) nodes += long(b.ni + 1) * (b.nj + 1) << 3 * made.spec.coarsen;
-  return int(std::clamp(most_nodes / nodes - 2, 4L, 16L));
+/// Layers of cells of the rotor's grid that tiles of this rank have, from the hub on.
+std::vector<char> layers_of_tiles(const GridStore& store, const MadeRotorGrid& made) {
+  std::vector<char> wanted(std::size_t(made.maker->layers()), 0);
+  for (const int t : store.owned()) {
+    const Box box = block_box(store.tiling(), t);
+    const int of_sector = store.tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector;
+    const int begin = of_sector == 1 ? made.span_cells() : 0;  // the plug, from the tip on
+    std::fill(wanted.begin() + begin + box.low[2], wanted.begin() + begin + box.high[2], 1);
+  }
+  return wanted;
 }
 
 }  // namespace
@@ -104,67 +62,9 @@ RotorPose hub_pose(const RotorOptions& rotor) {
   return pose;
 }
 
-Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const EdgeLengths& edges) {
-  std::vector<std::string> blades;
-  for (const Boundary& b : grid.boundaries)
-    if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
-  return make_tiling(grid, blades, tile_limits(flow), edges);
-}
-
-std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told) try {
-  auto made = std::make_shared<MadeRotorGrid>();
-  made->turbine = read_turbine(setup.rotor.turbine);
-  made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
-  made->maker = std::make_shared<RotorGridMaker>(made->turbine, made->spec);
-  made->grid = made->maker->described();
-  made->edges = EdgeLengths(made->grid);
-  std::vector<std::string> sticking;
-  for (const PatchOptions& b : with_default_patches(setup.flow, made->grid).boundaries)
-    if (sticks(b.condition)) sticking.push_back(b.patch);
-  RotorGridQuality quality;
-  Moments moments(made->grid.blocks.size());
-  const int layers = made->maker->layers(), some = layers_at_once(*made);
-  for (int first = 0; first < layers; first += some) {
-    if (told) told("rotor grid", double(first) / layers);
-    const int last = std::min(layers, first + some);
-    const GridLayers part = made->maker->make(first, last, true);
-    merge(quality, rotor_grid_quality(part, {"blade_"}));
-    made->edges.add(part);
-    add_stations(part, made->stations);
-    const std::vector<WallSurface::Face> walls = wall_faces(part, sticking);
-    made->walls.insert(made->walls.end(), walls.begin(), walls.end());
-    moments.add(part, last == layers);
-    const std::vector<double> radii = surface_radii(part.grid.blocks[0]);
-    made->radii.insert(made->radii.end(), radii.begin(), last == layers ? radii.end() : radii.begin() + (last - first));
-  }
-  made->moments = moments.sum();
-  for (const double moment : made->moments)
-    if (!std::isfinite(moment)) throw NumericalFailure("grid refused: it has nodes that are not finite", "aero.grid", 0, 0.0);
-  require_quality(made->grid, quality,
-                  {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
-  require_sound(made->grid, "aero.grid", {.nodes = false});
-  return made;
-} catch (const NumericalFailure& failure) {
-  throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
-}
-
-namespace {
-/// Layers of cells of the rotor's grid that tiles of this rank have, from the hub on.
-std::vector<char> layers_of_tiles(const GridStore& store, const MadeRotorGrid& made) {
-  std::vector<char> wanted(std::size_t(made.maker->layers()), 0);
-  for (const int t : store.owned()) {
-    const Box box = block_box(store.tiling(), t);
-    const int of_sector = store.tiling().tiles[std::size_t(t)].block % BladePitching::blocks_of_sector;
-    const int begin = of_sector == 1 ? made.span_cells() : 0;  // the plug, from the tip on
-    std::fill(wanted.begin() + begin + box.low[2], wanted.begin() + begin + box.high[2], 1);
-  }
-  return wanted;
-}
-}  // namespace
-
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
                              std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told)
-    : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, told)), start_(hub_pose(setup.rotor)) {
+    : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, MPI_COMM_SELF, told)), start_(hub_pose(setup.rotor)) {
   const RotorOptions& rotor = setup.rotor;
 
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
@@ -210,7 +110,7 @@ void ResolvedRotor::make_nodes() {
       std::fill(rows.begin() + box.low[2], rows.begin() + box.high[2] + 1, 1);
   }
   store_->begin_parts();
-  const int layers = int(wanted.size()), some = layers_at_once(*made_);
+  const int layers = int(wanted.size()), some = made_->layers_at_once();
   for (int first = 0; first < layers; ++first) {
     if (!wanted[std::size_t(first)]) continue;
     int last = first;

@@ -16,13 +16,10 @@
 
 #include "runtime/executor/executor.hpp"
 #include "src/aero/flow/flow_solver.hpp"
-#include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/made_rotor_grid.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
-#include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/rotor_grid/motion.hpp"
 #include "src/aero/rotor_grid/pitching.hpp"
-#include "src/aero/rotor_grid/rotor_grid.hpp"
-#include "src/aero/rotor_grid/stations.hpp"
 #include "src/aero/rotor_loads.hpp"
 
 namespace spindrift::aero {
@@ -37,28 +34,6 @@ struct SpanLoad {
   StationLoad load;      ///< normal (downwind) and tangential (as the rotor turns), pressure and friction [N/m]
   StationLoad friction;  ///< friction's part [N/m]
 };
-
-/// The grid that a scene's rotor turns with, in the rotor's frame, looked through once for all solvers on it. Its nodes are
-/// nowhere all at once: a solver has those of its own tiles made again.
-struct MadeRotorGrid {
-  Turbine turbine;
-  RotorGridSpec spec;
-  std::shared_ptr<const RotorGridMaker> maker;
-  MultiBlockGrid grid;        ///< without nodes
-  std::vector<double> radii;  ///< of the surfaces of nodes from the hub on [m]
-  EdgeLengths edges;
-  std::vector<WallSurface::Face> walls;             ///< of the patches that the gas sticks to
-  std::vector<std::vector<BladeStation>> stations;  ///< by blade
-  std::array<double, 3> moments{};                  ///< of the nodes: their number and two sums, which tell grids apart
-
-  int blades() const { return int(stations.size()); }                       ///< that it has, one where it is of one sector
-  int span_cells() const { return spec.sizes.span >> spec.coarsen; }        ///< from hub to tip
-  int radial_cells() const { return spec.sizes.radial() >> spec.coarsen; }  ///< from hub to outer radius
-};
-/// How the grid of a rotor is cut into tiles: lines of cells from the blades stay whole.
-Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const EdgeLengths& edges);
-/// Throws scene::SceneError where the scene does not make a grid fit for use.
-std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, const GridProgress& told = {});
 
 /// Where a rotor is.
 struct RotorPlace {

@@ -184,7 +184,7 @@ class ResolvedAir final : public MarchingAir {
 
   /// Looked through once for the solver that settles and the one that moves: ten seconds at the paper's size.
   const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
-    if (!grid_) grid_ = made_rotor_grid(setup_, grid_progress());
+    if (!grid_) grid_ = made_rotor_grid(setup_, world_.comm, grid_progress());
     return grid_;
   }
 

@@ -106,7 +106,9 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int
   const aero::FlowOptions& o = *s.aero.flow;
   wind_ = coupling::changing_wind(s);
   if (has_resolved_rotor(s)) {
-    rotor_ = std::make_unique<aero::ResolvedRotor>(resolved_rotor_setup(s), world.size, world.rank, chunk, nullptr,
+    const aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);
+    rotor_ = std::make_unique<aero::ResolvedRotor>(setup, world.size, world.rank, chunk,
+                                                   made_rotor_grid(setup, world.comm, coupling::grid_progress()),
                                                    coupling::grid_progress());
     store_ = &rotor_->store(), solver_ = &rotor_->solver();
     place_wind(world.comm);

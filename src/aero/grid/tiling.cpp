@@ -290,7 +290,7 @@ int Tiling::patch(std::string_view name) const {
 }
 
 EdgeLengths::EdgeLengths(const MultiBlockGrid& whole) {
-  for (const Block& b : whole.blocks) blocks_.push_back({b.cells(), {}, 0});
+  for (const Block& b : whole.blocks) cells_.push_back(b.cells());
 }
 
 EdgeLengths EdgeLengths::of_whole(const MultiBlockGrid& grid) {
@@ -299,30 +299,35 @@ EdgeLengths EdgeLengths::of_whole(const MultiBlockGrid& grid) {
   return edges;
 }
 
-void EdgeLengths::add(const GridLayers& layers) {
-  for (std::size_t n = 0; n < blocks_.size(); ++n) add(int(n), layers.grid.blocks[n], layers.first[n], layers.count[n]);
+void EdgeLengths::add(const GridLayers& part) {
+  for (std::size_t n = 0; n < cells_.size(); ++n) add(int(n), part.grid.blocks[n], part.first[n], part.count[n]);
 }
 
 void EdgeLengths::add(int number, const Block& b, int first, int count) {
-  Sums& to = blocks_[number];
-  const int step_i = std::max(1, to.cells[0] / 16), step_j = std::max(1, to.cells[1] / 16),
-            step_k = std::max(1, to.cells[2] / 16);
+  const Index& cells = cells_[number];
+  const int step_i = std::max(1, cells[0] / 16), step_j = std::max(1, cells[1] / 16), step_k = std::max(1, cells[2] / 16);
   for (int k = 0; k < count; ++k) {
     if ((first + k) % step_k != 0) continue;
+    Layer& layer = layers_.emplace_back(Layer{.block = number});
     for (int j = 0; j < b.nj; j += step_j)
-      for (int i = 0; i < b.ni; i += step_i, ++to.count) {
+      for (int i = 0; i < b.ni; i += step_i, ++layer.count) {
         const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
         const Eigen::Vector3d* next[] = {&b.nodes[b.node(k, j, i + 1)], &b.nodes[b.node(k, j + 1, i)],
                                          &b.nodes[b.node(k + 1, j, i)]};
-        for (int d = 0; d < 3; ++d) to.sum[d] += std::log(std::max((*next[d] - x).norm(), 1e-300));
+        for (int d = 0; d < 3; ++d) layer.sum[d] += std::log(std::max((*next[d] - x).norm(), 1e-300));
       }
   }
 }
 
 std::array<double, 3> EdgeLengths::of(int block) const {
-  std::array<double, 3> mean = blocks_[block].sum;
-  for (double& m : mean) m /= double(blocks_[block].count);
-  return mean;
+  Layer all;
+  for (const Layer& layer : layers_) {
+    if (layer.block != block) continue;
+    all.count += layer.count;
+    for (int d = 0; d < 3; ++d) all.sum[d] += layer.sum[d];
+  }
+  for (double& sum : all.sum) sum /= double(all.count);
+  return all.sum;
 }
 
 Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> walls, const TilingOptions& options) {

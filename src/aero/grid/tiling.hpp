@@ -91,24 +91,28 @@ struct Tiling {
   int patch(std::string_view name) const;
 };
 
-/// Mean logarithms of the edge lengths of each block's cells, from samples: all that a tiling takes of the nodes.
+/// Mean logarithms of the edge lengths of each block's cells, from samples: all that a tiling takes of the nodes. Summed by
+/// layers of cells, so that it does not matter how a grid comes in parts.
 class EdgeLengths {
  public:
+  struct Layer {
+    int block = 0;
+    long count = 0;
+    std::array<double, 3> sum{};
+  };
   EdgeLengths() = default;
   explicit EdgeLengths(const MultiBlockGrid& whole);  ///< of its blocks, whose nodes are still to come
   static EdgeLengths of_whole(const MultiBlockGrid& grid);
-  void add(const GridLayers& layers);         ///< each layer once, from the first on
+  void add(const GridLayers& part);  ///< each layer once, from the first on
+  std::span<const Layer> layers() const { return layers_; }
+  void append(std::span<const Layer> more) { layers_.insert(layers_.end(), more.begin(), more.end()); }
   std::array<double, 3> of(int block) const;  ///< by direction; of a block whose layers are all added
 
  private:
   void add(int number, const Block& block, int first, int count);
 
-  struct Sums {
-    Index cells{};
-    std::array<double, 3> sum{};
-    long count = 0;
-  };
-  std::vector<Sums> blocks_;
+  std::vector<Index> cells_;  ///< of the blocks
+  std::vector<Layer> layers_;
 };
 
 /// `walls` names the patches whose normal direction becomes i. The grid must have passed check() (checks.hpp).
