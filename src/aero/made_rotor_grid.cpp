@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,7 +29,7 @@ struct Moments {
 
 /// What ranks see in layers from the hub on, one after the other.
 struct Look {
-  std::string failure;  ///< why a layer cannot be made; the rest is as far as it came
+  std::string failure;  ///< why it could not be; then there is nothing else
   RotorGridQuality quality;
   EdgeLengths edges;
   std::vector<Moments> moments;
@@ -71,8 +72,11 @@ auto extremes(Quality& q) {
                     &q.stretch[2],        &q.wall_growth, &q.wall_orthogonality};
 }
 
-void put(runtime::Packer& to, const Eigen::Vector3d& v) { to.put(std::span<const double>(v.data(), 3)); }
-Eigen::Vector3d vector(runtime::Unpacker& from) { return Eigen::Map<const Eigen::Vector3d>(from.many<double>().data()); }
+void put(runtime::Packer& to, const Eigen::Vector3d& v) { to.put_one(std::array{v.x(), v.y(), v.z()}); }
+Eigen::Vector3d vector(runtime::Unpacker& from) {
+  const auto v = from.one<std::array<double, 3>>();
+  return {v[0], v[1], v[2]};
+}
 
 void put(runtime::Packer& to, const RotorGridQuality& q) {
   to.put_one(q.general.cells), to.put_one(q.general.volume), to.put_one(q.folded), to.put_one(q.skewed);
@@ -118,9 +122,10 @@ runtime::Bytes parcel(const Look& look) {
   to.put(look.edges.layers());
   to.put(std::span<const Moments>(look.moments));
   to.put(std::span<const double>(look.radii));
-  to.put_one(look.walls.size());
+  std::vector<double> corners;
   for (const WallSurface::Face& face : look.walls)
-    for (const Eigen::Vector3d& corner : face) put(to, corner);
+    for (const Eigen::Vector3d& corner : face) corners.insert(corners.end(), corner.begin(), corner.end());
+  to.put(std::span<const double>(corners));
   to.put_one(look.stations.size());
   for (const auto& blade : look.stations) {
     to.put_one(blade.size());
@@ -143,8 +148,9 @@ void add(Look& all, const runtime::Bytes& bytes) {
   all.edges.append(from.many<EdgeLengths::Layer>());
   append(all.moments, from.many<Moments>());
   append(all.radii, from.many<double>());
-  for (auto faces = from.one<std::size_t>(); faces > 0; --faces)
-    for (Eigen::Vector3d& corner : all.walls.emplace_back()) corner = vector(from);
+  const std::vector<double> corners = from.many<double>();
+  for (const double* c = corners.data(); c != corners.data() + corners.size();)
+    for (Eigen::Vector3d& corner : all.walls.emplace_back()) corner = Eigen::Map<const Eigen::Vector3d>(c), c += 3;
   const auto blades = from.one<std::size_t>();
   all.stations.resize(std::max(all.stations.size(), blades));
   for (std::size_t b = 0; b < blades; ++b)
@@ -160,26 +166,39 @@ void sort(std::vector<WallSurface::Face>& faces) {
   });
 }
 
-/// Through the layers [first, last), some at once.
-Look look_through(const MadeRotorGrid& made, std::span<const std::string> sticking, int first, int last,
-                  const GridProgress& told) {
+void describe(MadeRotorGrid& made, const ResolvedRotorSetup& setup) {
+  made.turbine = read_turbine(setup.rotor.turbine);
+  made.spec = rotor_grid_spec(setup.grid, made.turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
+  made.maker = std::make_shared<RotorGridMaker>(made.turbine, made.spec);
+  made.grid = made.maker->described();
+}
+
+std::vector<std::string> sticking_patches(const ResolvedRotorSetup& setup, const MultiBlockGrid& grid) {
+  std::vector<std::string> sticking;
+  for (const PatchOptions& b : with_default_patches(setup.flow, grid).boundaries)
+    if (sticks(b.condition)) sticking.push_back(b.patch);
+  return sticking;
+}
+
+/// Through this rank's share of the layers, some at once.
+Look look_through(const MadeRotorGrid& made, const std::vector<std::string>& sticking, MPI_Comm comm, const GridProgress& told) {
   Look look;
   look.edges = EdgeLengths(made.grid);
-  const int layers = made.maker->layers(), some = made.layers_at_once(), begin = first;
-  try {
-    for (; first < last; first += some) {
-      if (told) told("rotor grid", double(first - begin) / (last - begin));
-      const int end = std::min(last, first + some);
-      const GridLayers part = made.maker->make(first, end, true);
-      merge(look.quality, rotor_grid_quality(part, {"blade_"}));
-      look.edges.add(part);
-      add_moments(part, end == layers, look.moments);
-      const std::vector<double> radii = surface_radii(part.grid.blocks[0]);
-      look.radii.insert(look.radii.end(), radii.begin(), end == layers ? radii.end() : radii.begin() + (end - first));
-      append(look.walls, wall_faces(part, sticking));
-      add_stations(part, look.stations);
-    }
-  } catch (const NumericalFailure& failure) { look.failure = failure.what(); }
+  const long ranks = runtime::ranks_in(comm), rank = runtime::rank_in(comm);
+  const int layers = made.maker->layers(), some = made.layers_at_once();
+  const int begin = int(layers * rank / ranks), last = int(layers * (rank + 1) / ranks);
+  for (int first = begin; first < last; first += some) {
+    if (told) told("rotor grid", double(first - begin) / (last - begin));
+    const int end = std::min(last, first + some);
+    const GridLayers part = made.maker->make(first, end, true);
+    merge(look.quality, rotor_grid_quality(part, {"blade_"}));
+    look.edges.add(part);
+    add_moments(part, end == layers, look.moments);
+    const std::vector<double> radii = surface_radii(part.grid.blocks[0]);
+    look.radii.insert(look.radii.end(), radii.begin(), end == layers ? radii.end() : radii.begin() + (end - first));
+    append(look.walls, wall_faces(part, sticking));
+    add_stations(part, look.stations);
+  }
   return look;
 }
 
@@ -215,25 +234,23 @@ Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const E
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, MPI_Comm comm,
                                                      const GridProgress& told) try {
   auto made = std::make_shared<MadeRotorGrid>();
-  made->turbine = read_turbine(setup.rotor.turbine);
-  made->spec = rotor_grid_spec(setup.grid, made->turbine, setup.rotor.blade_pitch, setup.rotor.speed, setup.wind.norm());
-  made->maker = std::make_shared<RotorGridMaker>(made->turbine, made->spec);
-  made->grid = made->maker->described();
-  std::vector<std::string> sticking;
-  for (const PatchOptions& b : with_default_patches(setup.flow, made->grid).boundaries)
-    if (sticks(b.condition)) sticking.push_back(b.patch);
-
-  const long layers = made->maker->layers(), ranks = runtime::ranks_in(comm), rank = runtime::rank_in(comm);
-  const Look mine = look_through(*made, sticking, int(layers * rank / ranks), int(layers * (rank + 1) / ranks), told);
+  Look mine;
+  std::exception_ptr own;  // of this rank: the others must hear of it before it goes on
+  try {
+    describe(*made, setup);
+    mine = look_through(*made, sticking_patches(setup, made->grid), comm, told);
+  } catch (const std::exception& failure) { own = std::current_exception(), mine.failure = failure.what(); }
   Look all;
+  all.edges = EdgeLengths(made->grid);
   for (const runtime::Bytes& bytes : runtime::exchange_all(comm, parcel(mine))) add(all, bytes);
+  if (own) std::rethrow_exception(own);
   if (!all.failure.empty()) throw NumericalFailure(all.failure, "aero.grid", 0, 0.0);
   made->edges = std::move(all.edges), made->radii = std::move(all.radii);
   made->walls = std::move(all.walls), made->stations = std::move(all.stations);
-  sort(made->walls);
   made->moments = sum(all.moments, made->grid.blocks.size());
   for (const double moment : made->moments)
     if (!std::isfinite(moment)) throw NumericalFailure("grid refused: it has nodes that are not finite", "aero.grid", 0, 0.0);
+  sort(made->walls);
   require_quality(made->grid, all.quality,
                   {.scaled_jacobian = setup.grid.least_scaled_jacobian, .non_orthogonality = setup.grid.most_off_orthogonal_deg});
   require_sound(made->grid, "aero.grid", {.nodes = false});

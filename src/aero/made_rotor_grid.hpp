@@ -1,6 +1,6 @@
 // The grid of a scene's resolved rotor as all solvers on it find it: described, looked through, without nodes. Each rank looks
-// through its share of the layers, and all know what was seen. Used by resolved_rotor.cpp and `spindrift check`; tested in
-// tests/src/aero/made_rotor_grid_test.cpp. SPDX-License-Identifier: Apache-2.0
+// through its share of the layers, and all know what was seen. Made where a resolved rotor is, and by `spindrift check`; tested
+// in tests/src/aero/made_rotor_grid_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct MadeRotorGrid {
 };
 
 /// Throws scene::SceneError, on all ranks alike, where the scene does not make a grid fit for use. Collective; the same for any
-/// number of ranks.
+/// number of ranks, but for which of equally bad cells is named.
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, MPI_Comm comm = MPI_COMM_SELF,
                                                      const GridProgress& told = {});
 

@@ -48,7 +48,7 @@ struct RotorPlace {
 class ResolvedRotor {
  public:
   /// `chunk`: pseudo-steps that one run of a steady march takes at most; 0: as many as the scene allows.
-  /// `made`: the grid of this scene, by a setup with the same walls; made here where there is none.
+  /// `made`: the grid of this scene, by a setup with the same walls; where there is none, this rank looks through it alone.
   explicit ResolvedRotor(const ResolvedRotorSetup& setup, int ranks = 1, int rank = 0, int chunk = 0,
                          std::shared_ptr<const MadeRotorGrid> made = nullptr, const GridProgress& told = {});
   ResolvedRotor(const ResolvedRotor&) = delete;

@@ -182,7 +182,7 @@ class ResolvedAir final : public MarchingAir {
 
   double share_at_hub() const { return setup_.profile.share(frame_.start.hub.z()); }
 
-  /// Looked through once for the solver that settles and the one that moves: ten seconds at the paper's size.
+  /// Looked through once for the solver that settles and the one that moves: ten core-seconds at the paper's size.
   const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
     if (!grid_) grid_ = made_rotor_grid(setup_, world_.comm, grid_progress());
     return grid_;

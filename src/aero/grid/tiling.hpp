@@ -103,7 +103,7 @@ class EdgeLengths {
   EdgeLengths() = default;
   explicit EdgeLengths(const MultiBlockGrid& whole);  ///< of its blocks, whose nodes are still to come
   static EdgeLengths of_whole(const MultiBlockGrid& grid);
-  void add(const GridLayers& part);  ///< each layer once, from the first on
+  void add(const GridLayers& part);  ///< each layer once
   std::span<const Layer> layers() const { return layers_; }
   void append(std::span<const Layer> more) { layers_.insert(layers_.end(), more.begin(), more.end()); }
   std::array<double, 3> of(int block) const;  ///< by direction; of a block whose layers are all added

@@ -3,8 +3,10 @@
 #include "src/aero/made_rotor_grid.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 
+#include "src/aero/rotor_grid/quality.hpp"
 #include "src/scene/error.hpp"
 
 using namespace spindrift;
@@ -63,11 +65,26 @@ TEST_CASE("two ranks that share a rotor's grid see what one sees", "[rotor][mpi2
 
 TEST_CASE("a rotor's grid that one of two ranks finds bad is refused by both", "[rotor][mpi2]") {
   ResolvedRotorSetup s = eddying(1.0);
-  s.grid.least_scaled_jacobian = 0.999;
+  const auto sound = made_rotor_grid(s);
+  const int layers = sound->radial_cells();
+  const auto worst = [&](int first, int last) {
+    return rotor_grid_quality(sound->maker->make(first, last, true), {"blade_"}).general.scaled_jacobian.value;
+  };
+  const double inner = worst(0, layers / 2), outer = worst(layers / 2, layers);
+  REQUIRE(std::abs(inner - outer) > 1e-3);
+  s.grid.least_scaled_jacobian = 0.5 * (inner + outer);
   std::string alone;
   try {
     made_rotor_grid(s);
   } catch (const scene::SceneError& e) { alone = e.what(); }
   CHECK_THAT(alone, Contains("scaled Jacobian"));
   CHECK_THROWS_WITH(made_rotor_grid(s, MPI_COMM_WORLD), alone);
+}
+
+TEST_CASE("a turbine that cannot be read is refused by both ranks", "[rotor][mpi2]") {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  ResolvedRotorSetup s = eddying(1.0);
+  if (rank == 1) s.rotor.turbine += ".gone";  // as a disk that only one node has lost
+  CHECK_THROWS_WITH(made_rotor_grid(s, MPI_COMM_WORLD), Contains("dtu_10mw.toml.gone"));
 }
