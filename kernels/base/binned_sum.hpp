@@ -52,6 +52,7 @@ class BinnedSum {
     if ((special_ & not_a_number) != 0 || special_ == (plus_infinity | minus_infinity))
       return std::numeric_limits<double>::quiet_NaN();
     if (special_ != 0) return (special_ == plus_infinity ? 1.0 : -1.0) * std::numeric_limits<double>::infinity();
+    if (top_ == empty) return 0.0;
     std::int64_t b[bins];
     std::copy(bin_, bin_ + bins, b);
     carry(b);
