@@ -347,6 +347,7 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
     }
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose heap is not the one that is asked
 TEST_CASE("a rank has the air of its own tiles, and not a number for each cell of all others", "[rotor][fast]") {
   const auto in_use = [] {
     const struct mallinfo2 now = mallinfo2();
@@ -386,6 +387,7 @@ TEST_CASE("a rank has the air of its own tiles, and not a number for each cell o
   CHECK(more < sizeof(double));
   CHECK(fine.most < 1.3 * fine.one / ranks);
 }
+#endif
 
 TEST_CASE("far sides that act like a wind tunnel's walls are said to, with what they add", "[rotor][fast]") {
   CHECK(far_side_excess({.radial_extent = 3.0}) == Approx(0.0497).margin(1e-4));
