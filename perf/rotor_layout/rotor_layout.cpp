@@ -1,7 +1,7 @@
 // What one rank spends on laying out a resolved rotor that many share: memory at its largest, processor time. Of the paper's grid
-// and of one with a hundred times its cells, as a rank of so many that each has some two tiles; simulated, for one rank needs no
-// other to lay out its part. Run by perf/run; what was measured: docs/developer/notes/runtime.md. SPDX-License-Identifier:
-// Apache-2.0
+// and of one with a hundred times its cells, as a rank of so many that each has some two tiles; simulated, for beside the look at
+// all cells, which ranks share, one needs no other. Run by perf/run; what was measured: docs/developer/notes/runtime.md.
+// SPDX-License-Identifier: Apache-2.0
 #include <sys/resource.h>
 
 #include <cmath>

@@ -29,7 +29,7 @@ ResolvedRotorSetup eddying(double resolution) {
 void require_same(const MadeRotorGrid& a, const MadeRotorGrid& b) {
   CHECK(a.moments == b.moments);
   CHECK(a.radii == b.radii);
-  CHECK(a.walls == b.walls);
+  CHECK((a.walls == b.walls));  // in brackets: thousands of faces are not for printing
   for (int n = 0; n < int(a.grid.blocks.size()); ++n) CHECK(a.edges.of(n) == b.edges.of(n));
   REQUIRE(a.stations.size() == b.stations.size());
   for (std::size_t blade = 0; blade < a.stations.size(); ++blade) {
