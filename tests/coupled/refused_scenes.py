@@ -12,7 +12,7 @@ import sys
 import tempfile
 import time
 
-from running import ROOT, spindrift
+from running import ROOT, sanitized, spindrift
 
 EVERY = """
 time.end_s=-1.0
@@ -299,13 +299,16 @@ def cases():
             yield base, overrides, key.strip() or overrides[0].split("=", 1)[0]
 
 
+LONGEST_S = 120  # of which sanitizers need most
+
+
 def ended(folder, *words, settings):
     begin = time.time()
     try:
         # Open MPI keeps files of its own in TMPDIR, which side by side get in each other's way.
-        done = spindrift(*words, settings=settings, timeout=30, env={**os.environ, "TMPDIR": folder}, cwd=folder)
+        done = spindrift(*words, settings=settings, timeout=LONGEST_S, env={**os.environ, "TMPDIR": folder}, cwd=folder)
     except subprocess.TimeoutExpired:
-        return None, "still at work after 30 s", time.time() - begin
+        return None, f"still at work after {LONGEST_S} s", time.time() - begin
     return done.returncode, done.stdout + done.stderr, time.time() - begin
 
 
@@ -317,7 +320,8 @@ def named(key, said):
 
 def main():
     everything = "--all" in sys.argv
-    resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))  # of the programs too
+    if not sanitized():  # AddressSanitizer takes terabytes of addresses
+        resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))  # of the programs too
     faults, slowest = [], 0.0
 
     def one(numbered):

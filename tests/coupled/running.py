@@ -1,6 +1,7 @@
 """What the tests of the program share: the program under test (the first argument), the sources, a run of it, a folder of its own for each test.
 SPDX-License-Identifier: Apache-2.0"""
 import csv
+import functools
 import gzip
 import json
 import os
@@ -21,6 +22,12 @@ def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None)
     launcher = [ROOT / "ci/mpirun", ranks] if ranks else []
     words = [*launcher, PROGRAM, *arguments, *(word for text in settings for word in ("--set", text))]
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, errors="replace", check=False, timeout=timeout, env=env, cwd=cwd)
+
+
+@functools.cache
+def sanitized():
+    """Whether the program was built with sanitizers, whose memory is not the program's own."""
+    return "-fsanitize=" in spindrift("--version", "--verbose").stdout
 
 
 def rows(path):
