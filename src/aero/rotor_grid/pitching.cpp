@@ -35,12 +35,6 @@ std::vector<double> surface_radii(const Block& ring) {
   return radii;
 }
 
-BladePitching::BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec,
-                             const std::function<bool(int k)>& needed)
-    : BladePitching(grid, surface_radii(grid.blocks[0]), turbine, spec) {
-  add_rows(grid.blocks[0], 0, needed);
-}
-
 BladePitching::BladePitching(const MultiBlockGrid& described, std::span<const double> radii, const Turbine& turbine,
                              const RotorGridSpec& spec)
     : blades_(turbine.blades),
@@ -55,10 +49,8 @@ BladePitching::BladePitching(const MultiBlockGrid& described, std::span<const do
 }
 
 void BladePitching::add_rows(const GridLayers& part, const std::function<bool(int k)>& needed) {
-  add_rows(part.grid.blocks[0], part.first[0], needed);
-}
-
-void BladePitching::add_rows(const Block& ring, int first, const std::function<bool(int k)>& needed) {
+  const Block& ring = part.grid.blocks[0];
+  const int first = part.first[0];
   std::vector<double> length(std::size_t(ring.ni) + 1);
   for (int k = 0; k <= ring.nk; ++k) {
     std::vector<double>& row = ring_share_[std::size_t(first + k)];

@@ -22,14 +22,11 @@ std::vector<double> surface_radii(const Block& ring);
 
 class BladePitching {
  public:
-  /// `grid` as made by make_rotor_grid from the same turbine and spec, not coarsened after; its nodes are those of zero change.
-  /// `needed`: which k of rings will be asked for, as a rule those of this rank's tiles; none: all.
-  BladePitching(const MultiBlockGrid& grid, const Turbine& turbine, const RotorGridSpec& spec,
-                const std::function<bool(int k)>& needed = {});
-  /// The same of a grid that comes in parts. `described`: the grid, whose nodes are not needed; `radii`: of its surfaces of nodes
-  /// [m], by k of the ring.
+  /// Of a grid made from the same turbine and spec, whose nodes are those of zero change. `described`: its blocks, whose nodes
+  /// are not needed; `radii`: of its surfaces of nodes [m], by k of the ring. Rows follow.
   BladePitching(const MultiBlockGrid& described, std::span<const double> radii, const Turbine& turbine,
                 const RotorGridSpec& spec);
+  /// Rings of a part of the grid. `needed`: which k will be asked for, as a rule those of this rank's tiles; none: all.
   void add_rows(const GridLayers& part, const std::function<bool(int k)>& needed);
 
   /// Only ring and plug of a sector move.
@@ -49,8 +46,6 @@ class BladePitching {
   static constexpr double most_change = 15.0 * radians_per_degree;
 
  private:
-  void add_rows(const Block& ring, int first, const std::function<bool(int k)>& needed);
-
   int blades_;
   double precone_, hub_radius_, root_chord_;
   std::vector<std::vector<double>> ring_share_;  ///< of sector 1, by k as its nodes, where needed; all sectors are alike

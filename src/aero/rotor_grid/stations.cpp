@@ -25,35 +25,20 @@ BladeStation station(const Block& b, int block, int k) {
   return s;
 }
 
-/// `first`: the layer of the whole that a block begins with; `counted`: what of a window is looked at.
-template <class First, class Counted>
-void add(const MultiBlockGrid& grid, First&& first, Counted&& counted, std::vector<std::vector<BladeStation>>& blades) {
-  std::size_t blade = 0;
-  for (const Boundary& boundary : grid.boundaries) {
-    if (!boundary.patch.starts_with("blade_") || boundary.where.side != Side::i_min) continue;
-    if (blade == blades.size()) blades.emplace_back();
-    const Window w = counted(boundary.where);
-    for (int k = w.low[1]; k < w.high[1]; ++k) {
-      blades[blade].push_back(station(grid.blocks[std::size_t(w.block)], w.block, k));
-      blades[blade].back().k += first(w.block);
-    }
-    ++blade;
-  }
-}
-
 }  // namespace
 
 void add_stations(const GridLayers& part, std::vector<std::vector<BladeStation>>& blades) {
-  add(
-      part.grid, [&](int block) { return part.first[std::size_t(block)]; }, [&](const Window& w) { return counted(part, w); },
-      blades);
-}
-
-std::vector<std::vector<BladeStation>> blade_stations(const MultiBlockGrid& grid) {
-  std::vector<std::vector<BladeStation>> blades;
-  add(
-      grid, [](int) { return 0; }, [](const Window& w) { return w; }, blades);
-  return blades;
+  std::size_t blade = 0;
+  for (const Boundary& boundary : part.grid.boundaries) {
+    if (!boundary.patch.starts_with("blade_") || boundary.where.side != Side::i_min) continue;
+    if (blade == blades.size()) blades.emplace_back();
+    const Window w = counted(part, boundary.where);
+    for (int k = w.low[1]; k < w.high[1]; ++k) {
+      blades[blade].push_back(station(part.grid.blocks[std::size_t(w.block)], w.block, k));
+      blades[blade].back().k += part.first[std::size_t(w.block)];
+    }
+    ++blade;
+  }
 }
 
 }  // namespace spindrift::aero

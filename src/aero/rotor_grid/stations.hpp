@@ -33,9 +33,8 @@ inline StationLoad load_at(const BladeStation& s, const Eigen::Vector3d& force) 
   return {force.dot(s.normal) / s.length, force.dot(s.tangential) / s.length};
 }
 
-/// Stations of each blade from root to tip, for a grid of make_rotor_grid: found by the walls named blade_N.
-std::vector<std::vector<BladeStation>> blade_stations(const MultiBlockGrid& grid);
-/// Appends those of the layers that a part counts.
+/// Appends, for each blade, the stations of the layers that a part of a rotor's grid counts, from root to tip: found by the walls
+/// named blade_N.
 void add_stations(const GridLayers& part, std::vector<std::vector<BladeStation>>& blades);
 
 }  // namespace spindrift::aero

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/rotor_grid/quality.hpp"
@@ -13,6 +14,13 @@ namespace spindrift::aero {
 inline const Turbine& dtu() {
   static const Turbine turbine = read_turbine(std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml");
   return turbine;
+}
+
+/// A grid as one part, which counts all of its layers.
+inline GridLayers one_part(const MultiBlockGrid& grid) {
+  GridLayers part{.grid = grid, .first = std::vector<int>(grid.blocks.size(), 0), .count = {}};
+  for (const Block& b : grid.blocks) part.count.push_back(b.nk);
+  return part;
 }
 
 inline RotorGridSpec spec_of(double n, double first_cell_chords, double pitch_deg = 0.0, bool whole = false) {

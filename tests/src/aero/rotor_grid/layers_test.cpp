@@ -103,7 +103,8 @@ TEST_CASE("what is taken of a rotor's grid in layers is that of the whole", "[ro
   CHECK(alike(quality.wall_orthogonality, all.wall_orthogonality));
   const EdgeLengths lengths = EdgeLengths::of_whole(whole);
   for (int b = 0; b < int(whole.blocks.size()); ++b) CHECK(edges.of(b) == lengths.of(b));
-  const auto expected = blade_stations(whole);
+  std::vector<std::vector<BladeStation>> expected;
+  add_stations(one_part(whole), expected);
   REQUIRE(stations.size() == expected.size());
   for (std::size_t b = 0; b < expected.size(); ++b) {
     REQUIRE(stations[b].size() == expected[b].size());
@@ -144,7 +145,8 @@ TEST_CASE("tiles and pitching blades of a rank have the same from layers as from
     for (std::size_t d = 0; d < 3; ++d)
       CHECK(std::ranges::equal(at_once[t].face_data[d].span(), in_parts[t].face_data[d].span()));
   }
-  const BladePitching of_whole(whole, dtu(), spec);
+  BladePitching of_whole(whole, surface_radii(whole.blocks[0]), dtu(), spec);
+  of_whole.add_rows(one_part(whole), {});
   BladePitching of_parts(maker.described(), radii, dtu(), spec);
   for_layers(maker, 4, [&](const GridLayers& part) { of_parts.add_rows(part, {}); });
   for (int k = 0; k <= maker.layers(); ++k) CHECK(of_parts.share(0, k, 3, 2) == of_whole.share(0, k, 3, 2));

@@ -13,6 +13,12 @@ using namespace spindrift::aero;
 
 namespace {
 
+BladePitching pitching_of(const MultiBlockGrid& grid, const RotorGridSpec& spec, const std::function<bool(int k)>& needed = {}) {
+  BladePitching pitching(grid, surface_radii(grid.blocks[0]), dtu(), spec);
+  pitching.add_rows(one_part(grid), needed);
+  return pitching;
+}
+
 MultiBlockGrid pitched(const MultiBlockGrid& grid, const BladePitching& pitching, double change) {
   MultiBlockGrid moved = grid;
   for (int b = 0; b < int(grid.blocks.size()); ++b)
@@ -25,14 +31,14 @@ MultiBlockGrid pitched(const MultiBlockGrid& grid, const BladePitching& pitching
 TEST_CASE("no change of pitch leaves every node where it is, bit by bit", "[rotor_grid][fast]") {
   const RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
   const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
-  const MultiBlockGrid same = pitched(grid, BladePitching(grid, dtu(), spec), 0.0);
+  const MultiBlockGrid same = pitched(grid, pitching_of(grid, spec), 0.0);
   for (std::size_t b = 0; b < grid.blocks.size(); ++b) CHECK(same.blocks[b].nodes == grid.blocks[b].nodes);
 }
 
 TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees either way", "[rotor_grid][fast]") {
   const RotorGridSpec spec = spec_of(GENERATE(1.0, 2.04), 5e-4, 0.0, true);
   const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
-  const BladePitching pitching(grid, dtu(), spec);
+  const BladePitching pitching = pitching_of(grid, spec);
   const double change = GENERATE(-15.0, -5.0, 5.0, 15.0) * radians_per_degree;
   const MultiBlockGrid moved = pitched(grid, pitching, change);
   const RotorGridQuality q = rotor_grid_quality(moved, blade_walls());
@@ -60,7 +66,7 @@ TEST_CASE("blades pitch as rigid bodies; grids stay whole within 15 degrees eith
 TEST_CASE("nodes pitch alike where only the rows of a rank's tiles are known", "[rotor_grid][fast]") {
   const RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
   const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
-  const BladePitching all(grid, dtu(), spec), some(grid, dtu(), spec, [](int k) { return k >= 3 && k <= 7; });
+  const BladePitching all = pitching_of(grid, spec), some = pitching_of(grid, spec, [](int k) { return k >= 3 && k <= 7; });
   const double change = 5.0 * radians_per_degree;
   for (const int block : {0, 10}) {
     const Block& ring = grid.blocks[std::size_t(block)];
@@ -77,7 +83,7 @@ TEST_CASE("nodes pitch alike where only the rows of a rank's tiles are known", "
 TEST_CASE("a pitched grid has its noses upwind, where a grid made at that pitch has them", "[rotor_grid][fast]") {
   RotorGridSpec spec = spec_of(1.0, 2e-3, 0.0, true);
   const MultiBlockGrid grid = make_rotor_grid(dtu(), spec);
-  const BladePitching pitching(grid, dtu(), spec);
+  const BladePitching pitching = pitching_of(grid, spec);
   const double change = 8.0 * radians_per_degree;
   const MultiBlockGrid moved = pitched(grid, pitching, change);
   spec.pitch = change;
@@ -100,7 +106,8 @@ TEST_CASE("a pitched grid has its noses upwind, where a grid made at that pitch 
 
 TEST_CASE("stations of loads cover the blade and know their directions", "[rotor_grid][fast]") {
   const MultiBlockGrid grid = make_rotor_grid(dtu(), spec_of(1.5, 1e-3, 0.0, true));
-  const auto blades = blade_stations(grid);
+  std::vector<std::vector<BladeStation>> blades;
+  add_stations(one_part(grid), blades);
   REQUIRE(blades.size() == 3);
   for (const auto& blade : blades) {
     double length = 0.0;
