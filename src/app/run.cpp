@@ -63,7 +63,17 @@ void require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
   directory.identify(now.text());
   if (!directory.resumes()) return;
   const std::string saved = io::CheckpointSeries(world, directory.checkpoints(), 1).newest_identity();
-  if (saved.empty()) return;  // every checkpoint is damaged, which reading them will tell
+  if (saved.empty()) {  // where none can be read, this says which and why
+    if (!io::CheckpointSeries(world, directory.checkpoints(), 1).newest())
+      throw io::InputError(
+          "run directory " + directory.path().string() +
+          ": --restart finds damaged checkpoints only; put a copy of one back, or say --overwrite to begin anew");
+    return;
+  }
+  for (const std::string& key : arguments.allowed)
+    if (key != "history.csv" && !names_part_of(now, key) && !names_part_of(scene::Identity::parsed(saved), key))
+      throw io::InputError("--allow-change " + key +
+                           ": neither this scene nor that of the first run has a key or file of that name");
   std::vector<std::string> free(std::begin(free_at_restart), std::end(free_at_restart));
   free.insert(free.end(), arguments.allowed.begin(), arguments.allowed.end());
   const std::vector<scene::Difference> all = differences(scene::Identity::parsed(saved), now, free);
@@ -103,8 +113,8 @@ io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupli
 
 /// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
 /// it goes on (a failure of the system, which the other ranks may not know of) or ends the run (what all ranks know).
-io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, const std::function<io::Summary()>& run) {
-  io::Summary summary;
+io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, io::Summary summary,
+                       const std::function<io::Summary()>& run) {
   const auto end = [&](int code, const std::string& why) {
     summary.exit_code = code, summary.exit_reason = why;
     summary.ranks = world.size;
@@ -112,7 +122,7 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
   };
   // A new run says what it was refused for; one that goes on keeps the summary that it has.
   const auto refused = [&](const std::string& why) {
-    if (world.rank != 0 || std::filesystem::exists(directory.summary())) return;
+    if (world.rank != 0 || directory.resumes()) return;
     end(bad_input, why);
     write_summary(directory.summary(), summary);
   };
@@ -280,7 +290,12 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   // Before the run: meanwhile the file may be edited or gone.
   const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
   stop.watch(scenario->runtime.wall_limit_s, directory.stop());
-  io::Summary summary = summary_of(directory, world, [&] {
+  io::Summary begun;
+  begun.title = title, begun.scene = arguments.scene, begun.overrides = arguments.overrides;
+  begun.ranks = world.size, begun.threads = threads;
+  const auto says_begun = [&] { write_summary_of_start(directory.summary(), begun); };
+  if (world.rank == 0) directory.resumes() ? void(settings.began = says_begun) : says_begun();
+  io::Summary summary = summary_of(directory, world, begun, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);
   });

@@ -2,6 +2,7 @@
 #include "src/coupling/limits.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -84,24 +85,28 @@ void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& s
 void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
                              const bodies::Linearisation& linearisation) {
   const CouplingOptions& o = floating.scenario().coupling;
-  if (!floating.rotor() || !is_loose(o.scheme) || o.accept_unstable || state.motions.empty()) return;
+  if (!floating.rotor() || !is_loose(o.scheme) || state.motions.empty()) return;
   const CouplingScheme& chosen = of(o.scheme);
   const FullLoads full(floating);
   const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
   const LooseVerdict verdict = loose_verdict(floating, state, frequencies, linearisation);
   const std::string scheme = chosen.judged(o);
+  const auto beyond = [&](const char* key, const std::string& value, const std::string& why) {
+    if (!o.accept_unstable) refuse(floating, key, value, why);
+    spdlog::warn("{} = {} {}: accepted, as the scene says", key, value, why);
+  };
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
     const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";
     const double window = floating.timeline().window_s();
     if (window > known.window_limit_s)
-      refuse(floating, "time.window_s", fmt::format("{}", window),
+      beyond("time.window_s", fmt::format("{}", window),
              fmt::format(
                  "is above the limit of {:.3g} s, from which with {} the bodies swing ever more, as the rotor's damping ({:.3g} "
                  "kN per m/s on {:.3g} kg at the hub) answers too late: shorten it, {}",
                  known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
     if (verdict.mass_ratio() > known.mass_ratio_limit)
-      refuse(floating, "coupling.scheme", "\"" + scheme + "\"",
+      beyond("coupling.scheme", "\"" + scheme + "\"",
              fmt::format("is unstable at any window: the air that the blades carry along is {:.3g} of the mass at the hub, the "
                          "limit is {:.3g}; {}",
                          verdict.mass_ratio(), known.mass_ratio_limit, mend));

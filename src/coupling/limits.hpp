@@ -20,7 +20,7 @@ bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::Bodies
 void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,
-/// unless coupling.accept_unstable.
+/// which coupling.accept_unstable makes a warning.
 void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
                              const bodies::Linearisation& linearisation);
 

@@ -21,6 +21,8 @@ namespace {
 // Least bytes of one: state, sums and place of a particle; state, matrix in float and metrics of a cell; a strip of a cylinder;
 // a number of a matrix over all bodies.
 constexpr double of_particle = 100.0, of_cell = 600.0, of_strip = 150.0, of_number = 8.0;
+/// What check foretells at most, with all layers of walls and all variables of the air: for numbers that would fit.
+constexpr double room_of_particle = 800.0, room_of_cell = 2500.0;
 constexpr double most_things = 1e12;  ///< beyond any computer, whatever its memory
 
 /// Water of the tank, or of its blocks, and one layer of its walls.
@@ -51,11 +53,11 @@ Demand sea_demand(const Scenario& s, double memory) {
                 count * of_particle,
                 {}};
   double fits = walls ? top : d, fails = fits;
-  for (int step = 0; step < 200 && particles(s, walls ? d : fits, walls ? fits : top) * of_particle > memory; ++step)
+  for (int step = 0; step < 200 && particles(s, walls ? d : fits, walls ? fits : top) * room_of_particle > memory; ++step)
     fails = fits, fits *= walls ? 0.5 : 2.0;
   for (int step = 0; step < 12; ++step) {
     const double middle = std::sqrt(fits * fails);
-    (particles(s, walls ? d : middle, walls ? middle : top) * of_particle > memory ? fails : fits) = middle;
+    (particles(s, walls ? d : middle, walls ? middle : top) * room_of_particle > memory ? fails : fits) = middle;
   }
   demand.that_fits = fmt::format("{} {:.2g}", walls ? "at most" : "at least", fits * (walls ? 0.95 : 1.05));
   return demand;
@@ -85,7 +87,7 @@ std::vector<Demand> demands_of(const Scenario& s, double memory) {
   }
   if (s.resolves_air() && s.aero.flow && s.aero.flow->generate) {
     const auto [count, key] = aero::generated_size(*s.aero.flow->generate);
-    demands.push_back({key, "", "cells", count, count * of_cell, fmt::format("at most {:.3g} cells", memory / of_cell)});
+    demands.push_back({key, "", "cells", count, count * of_cell, fmt::format("at most {:.3g} cells", memory / room_of_cell)});
   }
   if (s.resolves_air() && s.aero.grid) {
     aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);

@@ -19,13 +19,18 @@ namespace {
 
 constexpr const char* identity_name = "identity";
 
-/// Names of the folder's checkpoints, oldest first: ticks are written with all their zeros.
+/// Names of the folder's checkpoints, oldest first: ticks are written with all their zeros. Throws where a folder that exists
+/// cannot be read.
 std::vector<std::string> listed(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("checkpoint_"))
-      names.push_back(entry.path().filename());
+  try {
+    if (!fs::exists(folder)) return names;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("checkpoint_"))
+        names.push_back(entry.path().filename());
+  } catch (const fs::filesystem_error& error) {
+    throw MachineFailure("cannot list the checkpoints in " + folder.string() + ": " + error.code().message());
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -59,19 +64,21 @@ void CheckpointSeries::save(std::int64_t tick, const std::function<void(Checkpoi
   fill(writer);
   writer.commit();
   if (rank_of(comm_) != 0) return;
-  const auto names = listed(folder_);
-  std::error_code ignored;  // an old file that cannot be removed is no reason to stop
-  for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < names.size(); ++i) fs::remove(folder_ / names[i], ignored);
+  try {
+    const auto names = listed(folder_);
+    std::error_code ignored;
+    for (std::size_t i = 0; i + static_cast<std::size_t>(keep_) < names.size(); ++i) fs::remove(folder_ / names[i], ignored);
+  } catch (const MachineFailure& failure) { spdlog::warn("old checkpoints stay: {}", failure.what()); }  // no reason to stop
 }
 
 std::optional<CheckpointReader> CheckpointSeries::newest(Damaged damaged) {
   std::size_t passed = 0;  // damaged ones that were left
   for (;;) {
     std::string name;
-    if (rank_of(comm_) == 0) {
+    on_root(comm_, [&] {
       const auto names = listed(folder_);
       if (names.size() > passed) name = names[names.size() - 1 - passed];
-    }
+    });
     name = from_root(comm_, name);
     if (name.empty()) return std::nullopt;
     try {
@@ -94,10 +101,10 @@ std::optional<CheckpointReader> CheckpointSeries::newest(Damaged damaged) {
 
 std::string CheckpointSeries::newest_identity() const {
   std::string identity;
-  if (rank_of(comm_) == 0) {
+  on_root(comm_, [&] {
     std::vector<std::string> names = listed(folder_);
     for (; identity.empty() && !names.empty(); names.pop_back()) identity = identity_in(folder_ / names.back());
-  }
+  });
   return from_root(comm_, identity);
 }
 

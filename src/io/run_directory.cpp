@@ -20,9 +20,10 @@ constexpr std::string_view files_of_a_run[] = {"scene.toml",  "history.csv",  "s
                                                "trace.json",  "report.html",  "checkpoints",  "fields",  "spanwise.csv",
                                                "history.out", "history.outb", "settling"};
 
+/// Throws where a folder that exists cannot be read: what it holds is not nothing.
 bool holds(const fs::path& folder, std::string_view extension) {
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
+  if (!fs::exists(folder)) return false;
+  for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == extension) return true;
   return false;
 }
@@ -89,7 +90,8 @@ RunDirectory::RunDirectory(MPI_Comm comm, fs::path path, Existing existing) : pa
       lock_ = std::make_unique<RunLock>(path_);
       resumes_ = prepare(path_, existing);
     } catch (const fs::filesystem_error& error) {
-      throw MachineFailure("run directory " + path_.string() + ": " + error.code().message());
+      throw MachineFailure("run directory " + path_.string() + ": " + error.code().message() +
+                           (error.path1().empty() || error.path1() == path_ ? "" : ": " + error.path1().string()));
     }
   });
   resumes_ = from_root(comm, resumes_ ? "resumes" : "") == "resumes";

@@ -76,6 +76,18 @@ double real_time_factor(const Summary& summary) {
   return summary.wall_seconds > 0.0 ? (summary.end_time_s - summary.start_time_s) / summary.wall_seconds : 0.0;
 }
 
+void write_summary_of_start(const std::filesystem::path& path, const Summary& summary) {
+  const Json json = {{"format", "spindrift-summary-1"},
+                     {"title", summary.title},
+                     {"scene", summary.scene},
+                     {"set", summary.overrides},
+                     {"exit_code", nullptr},
+                     {"exit_reason", "no end is recorded: the run is at work, or it was killed"},
+                     {"machine", of_machine(summary)},
+                     {"build", of_build()}};
+  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 void write_summary(const std::filesystem::path& path, const Summary& summary) {
   const HistoryStatistics statistics = summary.statistics.value_or(HistoryStatistics{});
   Json json = {{"format", "spindrift-summary-1"},

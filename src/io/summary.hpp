@@ -65,6 +65,9 @@ struct Summary {
 /// Simulated seconds per wall second.
 double real_time_factor(const Summary& summary);
 
+/// Rank 0. Of a run that begins: what it is of, and no exit code. It stays where the run is killed.
+void write_summary_of_start(const std::filesystem::path& path, const Summary& summary);
+
 /// Rank 0. With build_info(), the host's name and processor; numbers that are not finite become null.
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 

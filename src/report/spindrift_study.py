@@ -47,6 +47,12 @@ def read_json(path):
         return None
 
 
+def ended(folder):
+    """The summary of a run that came to an end of any kind; None where it was killed, or is at work."""
+    summary = read_json(folder / "summary.json")
+    return summary if summary and summary["exit_code"] is not None else None
+
+
 def with_parent():
     """In a child: it ends with a checkpoint when this program goes, however that goes."""
     ctypes.CDLL(None).prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
@@ -100,7 +106,7 @@ class Runs:
         if not entry or entry["fingerprint"] != self.fingerprint(run):
             return None
         if entry["state"] == "under_way":
-            summary = read_json(self.folder / run["name"] / "summary.json")
+            summary = ended(self.folder / run["name"])
             if not summary or summary["exit_code"] not in (0, 2, 3):
                 return None
             entry = self._enter(run, entry, summary["exit_code"], summary)
@@ -170,7 +176,7 @@ class Runs:
                 continue
             self.children.remove(child)
             out = self.folder / run["name"]
-            summary = read_json(out / "summary.json")
+            summary = ended(out)
             code = summary["exit_code"] if summary else process.returncode
             if resumed and code == 2:  # its checkpoint is no good
                 shutil.rmtree(out / "checkpoints", ignore_errors=True)
@@ -213,7 +219,7 @@ class Runs:
                 if self.stopping:
                     process.send_signal(signal.SIGTERM)
                 time.sleep(0.02)
-            summary = read_json(out / "summary.json")
+            summary = ended(out)
             if self.stopping or not summary or summary["exit_code"] != 0:
                 return
             entry["core_s"].append(summary["processor_seconds"])

@@ -48,6 +48,7 @@ io::Summary Driver::run(Simulation& simulation) {
   std::int64_t window = first, last = last_window(timeline);
   history.keep_statistics(mean_ranges(simulation.scenario().output, timeline.window_end_s(last)));
   open_history(history, timeline.window_end_s(first), checkpoints.rows());
+  if (settings_.began) settings_.began();
   HistoryOutput rows(simulation, history);
   ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet),
                           simulation.counts_pseudo_steps());
@@ -79,8 +80,11 @@ io::Summary Driver::run(Simulation& simulation) {
   finish_outputs(outputs, simulation, window);
 
   if (summary_.exit_reason.empty())
-    summary_.exit_reason =
-        last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last)) : simulation.done();
+    summary_.exit_reason = last < first
+                               ? fmt::format("nothing was left to do: the run had come to t = {} s, and was asked to go to {} s",
+                                             timeline.window_end_s(first), timeline.window_end_s(last))
+                           : last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last))
+                                                       : simulation.done();
   summary_.restarts = checkpoints.restarts();
   summary_.columns = history.columns();
   if (summary_.exit_code == 0 && window == last_window(timeline)) summary_.statistics = history.statistics();

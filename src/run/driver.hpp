@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct RunSettings {
   std::string scene;            ///< its file, for recordings
   std::string record_graph;     ///< file of the recording; empty: none
   bool keep_runs = false;       ///< in the ledger, without a file
+  std::function<void()> began;  ///< called once the first state is there and rows follow
   /// Windows that trace and recording take down; without: all into the trace, usual_windows into the recording.
   std::optional<std::pair<std::int64_t, std::int64_t>> windows;
   static constexpr std::pair<std::int64_t, std::int64_t> usual_windows{3, 12};  // costs and priorities have settled

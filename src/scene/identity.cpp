@@ -97,6 +97,14 @@ Identity Identity::parsed(const std::string& text) {
   return identity;
 }
 
+bool names_part_of(const Identity& identity, const std::string& name) {
+  const Value root = read_toml(identity.echo, 0, "scene");
+  Keys keys;
+  flatten(root, "", keys);
+  return std::ranges::any_of(keys, [&](const auto& key) { return within(key.first, name); }) ||
+         std::ranges::find(identity.files, name, &FileDigest::path) != identity.files.end();
+}
+
 std::vector<Difference> differences(const Identity& before, const Identity& now, std::span<const std::string> free) {
   const Value then_root = read_toml(before.echo, 0, "checkpoint"), now_root = read_toml(now.echo, 0, "scene");
   Keys then_keys, now_keys;

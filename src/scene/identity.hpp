@@ -44,6 +44,9 @@ struct Identity {
   static Identity parsed(const std::string& text);
 };
 
+/// Whether `name` is a key or a section of the scene, or one of its files.
+bool names_part_of(const Identity& identity, const std::string& name);
+
 /// A key or a file that is not as it was.
 struct Difference {
   std::string what;         ///< "wind.speed_m_s", or a file's path

@@ -134,6 +134,69 @@ class Folders(Runs):
         self.run_case("--restart", "--until", 1.2)
         self.assertTrue(newest.with_name(newest.name + ".damaged").exists())
 
+    def test_checkpoints_that_cannot_be_listed_are_not_none(self):
+        self.run_case("--until", 1.0)
+        (self.out / "checkpoints").rename(self.path / "elsewhere")
+        (self.out / "checkpoints").write_text("")  # no folder, so that root meets an error too
+        before = self.files()
+        self.assertIn("checkpoints", self.run_case("--restart", "--until", 1.1, code=4))
+        self.assertEqual(self.files(), before)
+        (self.out / "checkpoints").unlink()
+        (self.path / "elsewhere").rename(self.out / "checkpoints")
+        self.run_case("--restart", "--until", 1.1)
+
+    def test_where_no_checkpoint_is_whole_nothing_is_written(self):
+        self.run_case("--until", 1.0)
+        for checkpoint in (self.out / "checkpoints").glob("*.h5"):
+            checkpoint.write_bytes(checkpoint.read_bytes()[:3000])
+        scene, rows = (self.out / "scene.toml").read_text(), self.history()
+        said = self.run_case("--restart", "--until", 1.1, "--set", "wind.speed_m_s=20.0", code=2)
+        self.assertIn("damaged checkpoints only", said)
+        self.assertEqual([(self.out / "scene.toml").read_text(), self.history()], [scene, rows])
+
+
+class Summaries(Runs):
+    def summary(self):
+        return json.loads((self.out / "summary.json").read_text())
+
+    def killed(self, *more):
+        run = subprocess.Popen([PROGRAM, "run", CASE3, "--out", self.out, "--no-report", "--quiet", "--set", "time.end_s=200000.0", "--set", "output.history_every=10", *more],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        rows = (self.out / "history.csv").stat().st_size if (self.out / "history.csv").exists() else 0
+        deadline = time.time() + 60
+        while (not (self.out / "history.csv").exists() or (self.out / "history.csv").stat().st_size <= rows) and time.time() < deadline:
+            time.sleep(0.02)
+        run.kill()
+        run.wait()
+
+    def test_a_run_that_was_killed_has_no_exit_code_and_not_that_of_the_run_before(self):
+        self.killed()
+        self.assertIsNone(self.summary()["exit_code"])
+        self.assertIn("killed", self.summary()["exit_reason"])
+        self.assertEqual(self.summary()["scene"], str(CASE3))
+        end = ["--set", "time.end_s=200000.0", "--set", "output.history_every=10"]
+        self.run_case("--overwrite", "--until", 1.0, *end)
+        self.assertEqual(self.summary()["exit_code"], 0)
+        self.killed("--restart")
+        self.assertIsNone(self.summary()["exit_code"])
+        report = subprocess.run([PROGRAM, "report", self.out], capture_output=True, text=True)
+        self.assertEqual(report.returncode, 0, report.stderr)
+
+    def test_a_restart_that_is_refused_keeps_the_summary_and_one_without_work_says_so(self):
+        self.run_case("--until", 1.0)
+        before = self.summary()
+        self.run_case("--restart", "--until", 1.1, "--set", "wind.speed_m_s=20.0", code=2)
+        self.assertEqual(self.summary(), before)
+        self.run_case("--restart", "--until", 0.5)
+        self.assertIn("nothing was left to do", self.summary()["exit_reason"])
+
+    def test_a_change_that_is_allowed_is_one_of_the_scene(self):
+        self.run_case("--until", 1.0)
+        said = self.run_case("--restart", "--until", 1.1, "--set", "wind.speed_m_s=12.0", "--allow-change", "wind.sped_m_s", code=2)
+        self.assertIn("wind.sped_m_s", said)
+        self.run_case("--restart", "--until", 1.1, "--set", "wind.speed_m_s=12.0", "--allow-change", "wind.speed_m_s")
+        self.run_case("--restart", "--until", 1.2, "--set", "wind.speed_m_s=12.0", "--allow-change", "wind")
+
 
 class Memory(Runs):
     """Lines, wake and blades that carry a state of their own."""

@@ -209,9 +209,10 @@ def full_disk(folder, count, pick):
 def two_jobs(folder, count, pick):
     """Of jobs started together in one folder one runs, the others end with 2, and the history is that of one."""
     expected, seconds = whole(folder)
-    refused = 0
-    for n in range(count):
-        out = folder / f"two_{n}"
+    refused, pairs = 0, 0
+    while refused < count:
+        out, pairs = folder / f"two_{pairs}", pairs + 1
+        assert pairs <= 10 * count, "no pair meets"
         first = start(SCENE, out, "--restart")
         time.sleep(pick.uniform(0.0, 0.8 * seconds))
         second = start(SCENE, out, pick.choice(["--restart", "--overwrite", "--restart"]))
@@ -224,7 +225,7 @@ def two_jobs(folder, count, pick):
         assert "a run is at work in it" in said[0] + said[1], said
         assert history(out) == expected, "two jobs wrote one history"
         refused += 1
-    return f"{count} pairs, {refused} refused"
+    return f"{count} refused of {pairs} pairs, the others were done before"
 
 
 def signals(folder, count, pick):
@@ -329,6 +330,7 @@ def stopped_rank(folder, count, pick):
             text = said.read()
         assert process.returncode != 0, f"exit code 0 with a stopped rank\n{text[-2000:]}"
         assert f"rank {stopped} does not answer" in text, f"rank {stopped} is not named\n{text[-3000:]}"
+        assert json.loads((out / "summary.json").read_text())["exit_code"] in (None, 4), "the summary says another end"
         longest = max(longest, took)
     return f"{count} stopped ranks named, runs ended within {longest:.1f} s of a watchdog of {limit:g} s"
 
