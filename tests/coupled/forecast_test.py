@@ -50,6 +50,15 @@ class Forecasts(Folder):
                 self.assertLess(abs(bodies * spacing**3 / volume - 1.0), 0.01)
                 self.assertLess(abs((water + walls + bodies) / every - 1.0), 0.01)
 
+    def test_a_spacing_that_would_fit_is_one_whose_forecast_fits(self):
+        tank = ROOT / "inputs/validation/dam_break/koshizuka_oka.toml"
+        refused = spindrift("check", tank, settings=["sea.particles.spacing_m=1e-6"])
+        self.assertEqual(refused.returncode, 2, refused.stdout)
+        there, fits = re.search(r"there are (\S+) GB; at least (\S+) would fit", refused.stdout + refused.stderr).groups()
+        said = spindrift("check", tank, settings=[f"sea.particles.spacing_m={fits}"])
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertLess(float(re.search(r"^  memory +(\S+) GB", said.stdout, re.M).group(1)), float(there))
+
     def memory(self, said, measured):
         if sanitized():
             return

@@ -354,6 +354,11 @@ class PartsTest(unittest.TestCase):
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "bad")
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Coupling"], "good")
+            run.values[run.columns.index("coupling.mismatch")][:20] = 1.0   # of the first windows, which begin without loads
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Coupling"], "good")
+            run.values[run.columns.index("coupling.mismatch")] = 0.8
+            self.assertEqual({c.title: c.level for c in verdict.health(run)}["Coupling"], "warn")
 
     def test_an_impact_answers_with_its_way_and_its_load(self):
         t = 0.001 * np.arange(161)
