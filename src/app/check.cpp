@@ -578,8 +578,9 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (floating.rotor() && !start.state.motions.empty()) print_rotors_at_start(floating, start);
     if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_all_blade_modes(floating);
   }
-  require_limits(floating, start.state, stability);
+  const scene::Doubts accepted = require_limits(floating, start.state, stability);
   if (world.rank != 0) return done;
+  print_doubts(accepted, {});
   const BaseCost base = base_cost(start_s);  // before what a census or a grid leaves behind
   if (start.state.motions.empty()) {
     print_meshes(floating, start);

@@ -64,10 +64,7 @@ void require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
   if (!directory.resumes()) return;
   const std::string saved = io::CheckpointSeries(world, directory.checkpoints(), 1).newest_identity();
   if (saved.empty()) {  // where none can be read, this says which and why
-    if (!io::CheckpointSeries(world, directory.checkpoints(), 1).newest())
-      throw io::InputError(
-          "run directory " + directory.path().string() +
-          ": --restart finds damaged checkpoints only; put a copy of one back, or say --overwrite to begin anew");
+    if (!io::CheckpointSeries(world, directory.checkpoints(), 1).newest()) throw io::only_damaged(directory.checkpoints());
     return;
   }
   for (const std::string& key : arguments.allowed)
@@ -195,7 +192,7 @@ ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
     ready.start = make_start(*ready.floating);
     found = stability(*ready.floating, ready.start.state);
     append(ready.doubts, coupling::doubts(*ready.floating, ready.start, found));
-    require_limits(*ready.floating, ready.start.state, found);
+    append(ready.doubts, require_limits(*ready.floating, ready.start.state, found));
   } catch (const scene::SceneError&) {  // what looks like the slip behind it
     if (found.linearisation.matrix.size() == 0) append(ready.doubts, coupling::doubts_as_described(*ready.floating));
     warn(ready.doubts);
@@ -294,7 +291,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   begun.title = title, begun.scene = arguments.scene, begun.overrides = arguments.overrides;
   begun.ranks = world.size, begun.threads = threads;
   const auto says_begun = [&] { write_summary_of_start(directory.summary(), begun); };
-  if (world.rank == 0) directory.resumes() ? void(settings.began = says_begun) : says_begun();
+  if (world.rank == 0 && directory.resumes())
+    settings.began = says_begun;  // until then the summary of the run before stands
+  else if (world.rank == 0)
+    says_begun();
   io::Summary summary = summary_of(directory, world, begun, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);

@@ -2,7 +2,6 @@
 #include "src/coupling/limits.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,35 +81,41 @@ void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& s
                      name(floating.multibody().integrator()), limit.step_s, least, step));
 }
 
-void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
-                             const bodies::Linearisation& linearisation) {
+scene::Doubts require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
+                                      const bodies::Linearisation& linearisation) {
+  scene::Doubts accepted;
   const CouplingOptions& o = floating.scenario().coupling;
-  if (!floating.rotor() || !is_loose(o.scheme) || state.motions.empty()) return;
+  if (!floating.rotor() || !is_loose(o.scheme) || state.motions.empty()) return accepted;
   const CouplingScheme& chosen = of(o.scheme);
   const FullLoads full(floating);
   const Campbell frequencies = campbell(floating.scenario(), linearisation, floating.rotor()->state(0.0, state.motions).speed);
   const LooseVerdict verdict = loose_verdict(floating, state, frequencies, linearisation);
   const std::string scheme = chosen.judged(o);
-  const auto beyond = [&](const char* key, const std::string& value, const std::string& why) {
-    if (!o.accept_unstable) refuse(floating, key, value, why);
-    spdlog::warn("{} = {} {}: accepted, as the scene says", key, value, why);
+  const auto beyond = [&](const char* key, const std::string& value, const std::string& limit, const std::string& why,
+                          const std::string& mend) {
+    if (!o.accept_unstable)
+      refuse(floating, key, value, fmt::format("{}: {}, or say coupling.accept_unstable = true", why, mend));
+    accepted.push_back({key, fmt::format("{} {}, accepted", value, why), limit, mend});
   };
   for (const LooseVerdict::Scheme& known : verdict.schemes) {
     if (known.name != scheme) continue;
-    const char* mend = "iterate (coupling.scheme = \"iqn_ils\"), or say coupling.accept_unstable = true";
+    const std::string iterate = "iterate (coupling.scheme = \"iqn_ils\")";
     const double window = floating.timeline().window_s();
     if (window > known.window_limit_s)
-      beyond("time.window_s", fmt::format("{}", window),
+      beyond("time.window_s", fmt::format("{}", window), fmt::format("below {:.3g} s", known.window_limit_s),
              fmt::format(
                  "is above the limit of {:.3g} s, from which with {} the bodies swing ever more, as the rotor's damping ({:.3g} "
-                 "kN per m/s on {:.3g} kg at the hub) answers too late: shorten it, {}",
-                 known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg, mend));
+                 "kN per m/s on {:.3g} kg at the hub) answers too late",
+                 known.window_limit_s, scheme, 1e-3 * verdict.slope_N_s_m, verdict.hub_mass_kg),
+             "shorten it or " + iterate);
     if (verdict.mass_ratio() > known.mass_ratio_limit)
-      beyond("coupling.scheme", "\"" + scheme + "\"",
+      beyond("coupling.scheme", "\"" + scheme + "\"", fmt::format("air of below {:.3g} of that mass", known.mass_ratio_limit),
              fmt::format("is unstable at any window: the air that the blades carry along is {:.3g} of the mass at the hub, the "
-                         "limit is {:.3g}; {}",
-                         verdict.mass_ratio(), known.mass_ratio_limit, mend));
+                         "limit is {:.3g}",
+                         verdict.mass_ratio(), known.mass_ratio_limit),
+             iterate);
   }
+  return accepted;
 }
 
 /// Of all rotors on a body.
@@ -142,11 +147,11 @@ void require_bending_blades(const FloatingSystem& floating) {
   }
 }
 
-void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
+scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
   require_stable(floating, stability);
   require_stable_lines(floating, state);
   require_bending_blades(floating);
-  require_stable_coupling(floating, state, stability.linearisation);
+  return require_stable_coupling(floating, state, stability.linearisation);
 }
 
 }  // namespace spindrift::coupling

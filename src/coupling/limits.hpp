@@ -8,6 +8,7 @@
 #include "src/bodies/linearise.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
+#include "src/scene/doubt.hpp"
 
 namespace spindrift::coupling {
 
@@ -20,14 +21,15 @@ bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::Bodies
 void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,
-/// which coupling.accept_unstable makes a warning.
-void require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
-                             const bodies::Linearisation& linearisation);
+/// unless coupling.accept_unstable: then what is accepted.
+scene::Doubts require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
+                                      const bodies::Linearisation& linearisation);
 
 /// Throws scene::SceneError where the blades that bend are faster than the bodies' step can follow, or heavier than their body.
 void require_bending_blades(const FloatingSystem& floating);
 
-/// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse.
-void require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability);
+/// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse, and what is
+/// accepted beyond them.
+scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability);
 
 }  // namespace spindrift::coupling

@@ -119,6 +119,9 @@ class CheckpointReader {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What --restart is refused with where no checkpoint of a run's folder of them verifies.
+InputError only_damaged(const std::filesystem::path& folder);
+
 /// The checkpoints of a run: a folder of files named by tick, of which the last few are kept.
 class CheckpointSeries {
  public:
@@ -137,6 +140,7 @@ class CheckpointSeries {
   std::string newest_identity() const;
 
   std::filesystem::path path(std::int64_t tick) const;
+  const std::filesystem::path& folder() const { return folder_; }
 
  private:
   MPI_Comm comm_;

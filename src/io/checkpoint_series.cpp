@@ -52,6 +52,11 @@ std::string identity_in(const fs::path& path) {
 
 }  // namespace
 
+InputError only_damaged(const fs::path& folder) {
+  return InputError("run directory " + folder.parent_path().string() + ": --restart finds damaged checkpoints only in " +
+                    folder.string() + "; put a copy of one back, or say --overwrite to begin anew");
+}
+
 CheckpointSeries::CheckpointSeries(MPI_Comm comm, fs::path folder, int keep, std::string identity)
     : comm_(comm), folder_(std::move(folder)), keep_(std::max(keep, 1)), identity_(std::move(identity)) {}
 

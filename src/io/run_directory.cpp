@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "src/io/atomic_file.hpp"
+#include "src/io/checkpoint.hpp"
 #include "src/io/collective.hpp"
 #include "src/io/machine_failure.hpp"
 
@@ -47,9 +48,7 @@ void remove_run(const fs::path& path, std::string_view but = {}) {
 /// A folder that --restart finds without a checkpoint: a run that never came that far left nothing worth keeping but its rows.
 void begin_anew(const fs::path& path) {
   const fs::path checkpoints = path / "checkpoints";
-  if (holds(checkpoints, ".damaged"))
-    throw InputError("run directory " + path.string() + ": --restart finds damaged checkpoints only in " + checkpoints.string() +
-                     "; put a copy of one back, or say --overwrite to begin anew");
+  if (holds(checkpoints, ".damaged")) throw only_damaged(checkpoints);
   const fs::path history = path / "history.csv", kept = path / rows_before;
   spdlog::warn("--restart: no run in {} came as far as a checkpoint: THIS RUN BEGINS ANEW, at the scene's start{}", path.string(),
                fs::exists(history) ? "; the rows that are there are kept as " + kept.filename().string() : std::string());

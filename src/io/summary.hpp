@@ -1,6 +1,6 @@
 // summary.json: what a run did in figures that programs read (report, perf, users' scripts): state at the end, statistics of
 // every column, steps, iterations, seconds and core-seconds by part, efficiencies, build and machine. Schema:
-// docs/user/outputs.md. Written by src/app at the end of every run, also of one that failed. Tested in
+// docs/user/outputs.md. Written by src/app as a run begins and at its end, also of one that failed. Tested in
 // tests/src/io/run_files_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

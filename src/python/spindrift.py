@@ -63,7 +63,7 @@ class Run:
 
     @property
     def exit_code(self):
-        """0 done, 3 numerical failure, 5 stopped on request ...; None of a run without a summary."""
+        """0 done, 3 numerical failure, 5 stopped on request ...; None of a run at work, or killed."""
         return self.summary.get("exit_code")
 
     def __getitem__(self, name):

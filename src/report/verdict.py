@@ -231,7 +231,7 @@ def _end(run):
     code = run.summary.get("exit_code")
     reason = str(run.summary.get("exit_reason") or "")
     if code is None:
-        return Check("warn", "End", "no summary: interrupted, or still running")
+        return Check("warn", "End", reason or "no summary: interrupted, or still running")
     level = "good" if code == 0 else "warn" if code == 5 else "bad"
     word = EXITS.get(code, f"exit code {code}")
     told = reason and (level == "good" or reason.lower().startswith(word.lower()))

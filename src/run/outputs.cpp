@@ -106,7 +106,7 @@ void Checkpoints::require_same_run(const io::CheckpointReader& file) const {
 
 std::int64_t Checkpoints::resume() {
   const std::optional<io::CheckpointReader> file = series_.newest();
-  if (!file) throw io::InputError("--restart: no valid checkpoint in the run directory");
+  if (!file) throw io::only_damaged(series_.folder());
   require_same_run(*file);
   simulation_.restore(*file);
   restarts_ = int(file->integer("restarts")) + 1;

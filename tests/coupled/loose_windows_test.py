@@ -32,6 +32,17 @@ class Limits(Folder):
         third = len(speed) // 3
         return done.returncode, json.loads((self.out / "summary.json").read_text())["exit_reason"], max(speed[:third]), max(speed[-third:])
 
+    def test_a_window_beyond_the_limit_that_is_accepted_is_told_in_log_and_check(self):
+        settings = ["coupling.scheme=cps2", "coupling.accept_unstable=true"]
+        for window, told in ((5.0, True), (0.1, False)):
+            with self.subTest(window=window):
+                asked = [*settings, f"time.window_s={window}", f"time.end_s={4 * window}"]
+                done = spindrift("run", ROOT / SYSTEMS["the paper's"], "--out", self.out, "--overwrite", "--no-report", "--quiet", settings=asked)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                said = spindrift("check", ROOT / SYSTEMS["the paper's"], settings=asked).stdout
+                for text in ((self.out / "log.txt").read_text(), said):
+                    self.assertEqual("is above the limit of" in text and "accepted" in text, told, text)
+
     def test_runs_grow_from_the_window_that_check_states(self):
         for system, scene in SYSTEMS.items():
             limits = stated(scene)

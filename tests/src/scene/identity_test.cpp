@@ -47,6 +47,8 @@ TEST_CASE("what may change is given by key, by section, and not by part of a nam
   CHECK(changed(before, now, {"time"}).empty());
   CHECK(changed(before, now, {"tim", "time.end"}).size() == 1);
   CHECK(changed(before, {with("4.0", "5.0"), {}}, {"bodies.a.cylinders"}).empty());
+  CHECK((names_part_of(before, "time.end_s") && names_part_of(before, "time") && names_part_of(before, "bodies.a.cylinders")));
+  CHECK_FALSE((names_part_of(before, "tim") || names_part_of(before, "time.end") || names_part_of(before, "time.end_s.x")));
 }
 
 TEST_CASE("files count by what is in them, wherever they are", "[scene][fast]") {
@@ -66,4 +68,6 @@ TEST_CASE("files count by what is in them, wherever they are", "[scene][fast]") 
   CHECK_THAT(edited[0].before, Contains("11 bytes, digest"));
   CHECK(edited[0].before != edited[0].now);
   CHECK(changed(before, made(one), {one}).empty());
+  CHECK(names_part_of(before, one));
+  CHECK_FALSE(names_part_of(before, other));
 }
