@@ -227,7 +227,7 @@ void print_all_blade_modes(const FloatingSystem& floating) {
   for (std::size_t n = 0; n < each.size(); ++n) print_blade_modes(each[n], floating.rotors()[n]);
 }
 
-void print_modes(const FloatingSystem& floating, const bodies::Linearisation& linearisation) {
+void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start{}\n",
              floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
   std::size_t free = 0;
@@ -257,6 +257,12 @@ void print_modes(const FloatingSystem& floating, const bodies::Linearisation& li
     else
       fmt::print("  {:<16}{:.4g} s, set by {}\n", name(integrator), limit.step_s, limit.mode);
   }
+  if (!floating.particle_plan() || time.step_s)
+    for (const bodies::Onset& onset : floating.multibody().watched())
+      if (const double pieces = floating.multibody().pieces_at(onset, time.step()); pieces > 1.0)
+        fmt::print(
+            "  line {}: taut, the masses at its ends swing with {:.3g} 1/s; a step in which it snaps is made in {:.0f} pieces\n",
+            onset.name, onset.rate, pieces);
 }
 
 /// Blank where there is none.

@@ -77,4 +77,12 @@ struct LoadSource {
   std::optional<InertialCoupling> coupling = std::nullopt;
 };
 
+/// A load that sets in at once and is stiff from there on: a line that snaps taut. A step that meets one is made in pieces short
+/// enough to follow it (System::watch).
+struct Onset {
+  std::string name;
+  std::function<bool(std::span<const Motion>)> acts;  ///< whether it does where the bodies are so; must not allocate
+  double rate = 0.0;                                  ///< of the fastest motion while it acts, |eigenvalue| [1/s]
+};
+
 }  // namespace spindrift::bodies

@@ -19,6 +19,15 @@ constexpr double farthest = 6.371e6;            // m, mean radius of the earth (
 constexpr double fastest = 1.119e4;             // m/s, escape velocity at its surface
 constexpr double consistency_tolerance = 1e-9;  // residual over L (or velocity) that a redundant row may show
 
+/// Radians by which the fastest motion turns in a piece of a step, where a load sets in or ends within it, and where it acts
+/// throughout. Bouncing weights keep their height to .2 % (tests/src/bodies/onset_test.cpp).
+struct Turning {
+  double at_onset, throughout;
+};
+constexpr Turning turning_in_a_piece(Integrator integrator) {
+  return integrator == Integrator::rk4 ? Turning{0.1, 0.5} : Turning{0.05, 0.05};
+}
+
 /// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a heavier body; the body
 /// itself where it has none.
 std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> joints) {
@@ -82,6 +91,13 @@ struct System::Work {
   bool within_bounds();
   void count_power(double weight);
   bool count_work(double h, double kinetic_before);
+  bool advance_pieces(const BodiesState& state, double begin, double end, double length, int pieces, bool known);
+  void look_for_onsets(std::span<const Motion> at);
+  struct Needed {
+    double pieces = 1.0;
+    int onset = -1;  // that asks for them
+  };
+  Needed pieces_met(double length) const;
 
   std::vector<Body> bodies;
   std::vector<Joint> joints;
@@ -110,6 +126,12 @@ struct System::Work {
     BodiesState state;
   } known;
   bool loads_from_outside = false;
+  /// Whether it acted and did not act in evaluations of the step.
+  struct Met {
+    bool acting = false, idle = false;
+  };
+  std::vector<Onset> onsets;
+  std::vector<Met> met;  // of each
 };
 
 bool System::Work::fail(StepReport::Trouble trouble, int body) {
@@ -201,6 +223,7 @@ void System::Work::gather_forces(bool at_rest) {
 /// Loads and masses where the mechanism is.
 void System::Work::gather(double t) {
   mechanism.motions(motions);
+  look_for_onsets(motions);
   loads.gather(t, motions);
   mass.gather(t, motions, mechanism);
 }
@@ -238,6 +261,35 @@ bool System::Work::close(double t, const Eigen::VectorXd& x, const Eigen::Vector
     report.value = worst;
     return false;
   }
+  return true;
+}
+
+void System::Work::look_for_onsets(std::span<const Motion> at) {
+  for (std::size_t k = 0; k < onsets.size(); ++k) (onsets[k].acts(at) ? met[k].acting : met[k].idle) = true;
+}
+
+/// That a step of this length needs, by what its evaluations met.
+System::Work::Needed System::Work::pieces_met(double length) const {
+  Needed most;
+  const Turning turning = turning_in_a_piece(integrator);
+  for (std::size_t k = 0; k < onsets.size(); ++k) {
+    if (!met[k].acting) continue;
+    const double pieces = std::ceil(length * onsets[k].rate / (met[k].idle ? turning.at_onset : turning.throughout));
+    if (pieces > most.pieces) most = {pieces, int(k)};
+  }
+  return most;
+}
+
+/// `opened` from `state` by so many equal steps. `known`: as evaluate() left it.
+bool System::Work::advance_pieces(const BodiesState& state, double begin, double end, double length, int pieces, bool known) {
+  if (!known) opened = state;
+  look_for_onsets(opened.motions);
+  const double h = length / pieces;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const double t = piece == 0 ? begin : begin + piece * h;
+    if (!advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h, known && piece == 0)) return false;
+  }
+  look_for_onsets(opened.motions);
   return true;
 }
 
@@ -312,6 +364,16 @@ std::span<const Joint> System::joints() const { return w_->joints; }
 std::span<const LoadSource> System::loads() const { return w_->sources; }
 Integrator System::integrator() const { return w_->integrator; }
 double System::reference_length() const { return w_->mechanism.length(); }
+
+void System::watch(std::vector<Onset> onsets) {
+  w_->onsets = std::move(onsets);
+  w_->met.assign(w_->onsets.size(), {});
+}
+std::span<const Onset> System::watched() const { return w_->onsets; }
+double System::pieces_at(const Onset& onset, double step_s) const {
+  return std::max(1.0, std::ceil(step_s * onset.rate / turning_in_a_piece(w_->integrator).at_onset));
+}
+
 void System::set_loads_from_outside(bool outside) {
   w_->loads_from_outside = outside;
   w_->known.valid = false;
@@ -399,13 +461,23 @@ void System::recall(const BodiesState& state) { w_->memory.recall(state.memory);
 
 StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces) {
   Work& w = *w_;
-  const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s, h = length / pieces;
+  const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s;
   const double end = double(state.tick + ticks) * tick_s;
-  const bool known = w.knows(state, begin);
-  if (!known) w.opened = state;
-  for (int piece = 0; piece < pieces; ++piece) {
-    const double t = piece == 0 ? begin : begin + piece * h;
-    if (!w.advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h, known && piece == 0)) return w.report;
+  for (bool known = w.knows(state, begin);; known = false) {
+    w.met.assign(w.onsets.size(), {});
+    const bool done = w.advance_pieces(state, begin, end, length, pieces, known);
+    const Work::Needed needed = w.pieces_met(length);  // a step that failed may have failed for this
+    if (needed.pieces > most_pieces) {
+      w.report.value = length * most_pieces / needed.pieces, w.report.onset = needed.onset;
+      w.fail(StepReport::Trouble::onset, -1);
+      return w.report;
+    }
+    if (needed.pieces > pieces)
+      pieces = int(needed.pieces);
+    else if (done)
+      break;
+    else
+      return w.report;
   }
   w.opened.tick = state.tick + ticks;
   std::swap(state, w.opened);
@@ -478,6 +550,13 @@ std::string System::describe(const StepReport& r) const {
     case Trouble::energy:
       return "bodies: the steps themselves have made " + fmt::format("{:.3g}", r.value) +
              " J, more than half of all work of the loads; try a smaller time.step_s";
+    case Trouble::onset: {
+      const Onset& onset = w_->onsets[std::size_t(r.onset)];
+      return fmt::format(
+          "{}: it snaps taut within the step, and swings with {:.3g} 1/s then; {} pieces of the step do not follow it, steps of "
+          "{:.3g} s would: try a smaller time.step_s",
+          onset.name, onset.rate, System::most_pieces, r.value);
+    }
     case Trouble::too_far:
       return body + ": it is " + fmt::format("{:.4g} m away, the limit is {:.4g} m (radius of the earth)", r.value, farthest);
     case Trouble::too_fast:
@@ -488,9 +567,10 @@ std::string System::describe(const StepReport& r) const {
 
 NumericalFailure System::failure(const StepReport& r, const BodiesState& state, double tick_s) const {
   const double t = double(state.tick) * tick_s;
-  const std::string place = r.joint >= 0  ? w_->joints[std::size_t(r.joint)].name
-                            : r.body >= 0 ? w_->bodies[std::size_t(r.body)].name
-                                          : "bodies";
+  const std::string place = r.onset >= 0   ? w_->onsets[std::size_t(r.onset)].name
+                            : r.joint >= 0 ? w_->joints[std::size_t(r.joint)].name
+                            : r.body >= 0  ? w_->bodies[std::size_t(r.body)].name
+                                           : "bodies";
   return NumericalFailure("t = " + fmt::format("{:.3g}", t) + " s, tick " + std::to_string(state.tick) + ": " + describe(r),
                           place, long(state.tick), t, r.value);
 }

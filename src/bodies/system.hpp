@@ -38,9 +38,11 @@ struct StepReport {
     too_far,       ///< a body is farther away than the earth is large: `value` is how far [m]
     too_fast,      ///< a body is faster than what leaves the earth: `value` is its speed [m/s]
     energy,        ///< the steps themselves made or lost more energy than half of what all loads did: `value` is how much [J]
+    onset,         ///< what is watched needs more than most_pieces of the step: `onset` is which, `value` the step it allows [s]
   };
   Trouble trouble = Trouble::none;
   int joint = -1, body = -1;   ///< where, -1 when neither
+  int onset = -1;              ///< of those watched
   double value = 0.0;          ///< residual over the reference length, pivot, or as the trouble says
   int newton_iterations = 0;   ///< in the whole step
   bool repartitioned = false;  ///< a new independent set was chosen at the start of the step
@@ -92,8 +94,15 @@ class System {
   /// Sources of load remember what this state has, for whoever asks them about it.
   void recall(const BodiesState& state);
 
-  /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it. On trouble the state is left as it was.
-  /// Does not allocate unless the independent set is chosen anew.
+  /// From now on a step that meets one of these is made in pieces: so many that it turns by a fraction of a radian in each.
+  void watch(std::vector<Onset> onsets);
+  std::span<const Onset> watched() const;
+  /// Of a step of so many seconds that meets the onset.
+  double pieces_at(const Onset& onset, double step_s) const;
+  static constexpr int most_pieces = 4096;
+
+  /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it; more where it meets what is watched. On
+  /// trouble the state is left as it was. Does not allocate unless the independent set is chosen anew.
   StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces = 1);
 
   /// Accelerations and loads by source; the reference is valid until the next call.

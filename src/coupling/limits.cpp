@@ -5,80 +5,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <limits>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/staggered.hpp"
-#include "kernels/mooring/line_spring_damper.hpp"
-#include "kernels/rigid/stability.hpp"
 #include "src/coupling/campbell.hpp"
-#include "src/coupling/retries.hpp"
 
 namespace spindrift::coupling {
 
-namespace {
-
-/// The place of a point that the scene gives on the body as it describes it; nothing for the earth, which does not move.
-std::optional<bodies::Pull> pull_at(const Scenario& s, const bodies::BodiesState& state, const std::string& body,
-                                    const Eigen::Vector3d& point) {
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    if (s.bodies[b].name != body) continue;
-    const Motion described = described_motion(s.bodies[b].options);
-    return bodies::Pull{b, state.motions[b].point(described.attitude.conjugate() * (point - described.position)), {}};
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::BodiesState& state) {
-  const Scenario& s = floating.scenario();
-  bodies::StepLimit limit{std::numeric_limits<double>::infinity(), "", 0.0};
-  for (const auto& [name, line] : s.moorings) {
-    // The linearisation has the others as they are.
-    if (line.model != LineSpringDamper::name || !line.tension_only) continue;
-    const std::optional<bodies::Pull> fairlead = pull_at(s, state, line.body, *line.fairlead_m),
-                                      anchor = pull_at(s, state, line.anchor_body, *line.anchor_m);
-    const Eigen::Vector3d along =
-        ((fairlead ? fairlead->point : *line.fairlead_m) - (anchor ? anchor->point : *line.anchor_m)).stableNormalized();
-    std::vector<bodies::Pull> pulls;
-    if (fairlead) pulls.push_back({fairlead->body, fairlead->point, along});
-    if (anchor) pulls.push_back({anchor->body, anchor->point, -along});
-    const double inverse_mass = bodies::mobility(floating.multibody(), state, pulls);
-    const double stiffness = line.stiffness_N_m ? *line.stiffness_N_m : *line.axial_stiffness_N / line.rest_length_m;
-    const double decay = 0.5 * line.damping_N_s_m * inverse_mass;
-    const std::complex<double> root = std::sqrt(std::complex<double>(decay * decay - stiffness * inverse_mass));
-    for (const std::complex<double> eigenvalue : {-decay + root, -decay - root})
-      if (const double step = stability_limit(s.time.integrator, eigenvalue); step < limit.step_s)
-        limit = {step, name, eigenvalue};
-  }
-  return limit;
-}
-
-void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state) {
-  const bodies::StepLimit limit = taut_line_limit(floating, state);
+void require_followed_lines(FloatingSystem& floating) {
+  const bodies::System& bodies = floating.multibody();
   const TimeOptions& time = floating.scenario().time;
-  if (floating.particle_plan() && !time.step_s) {
-    constexpr double margin = 0.9;
-    if (limit.step_s > 0.0) floating.body_step_limit_s = std::min(floating.body_step_limit_s, margin * limit.step_s);
-    return;
+  if (floating.particle_plan() && !time.step_s) return;  // their steps are short, and each is made in pieces
+  for (const bodies::Onset& onset : bodies.watched()) {
+    const double pieces = bodies.pieces_at(onset, time.step());
+    if (pieces <= bodies::System::most_pieces) continue;
+    const auto line = std::ranges::find_if(floating.scenario().moorings, [&](const auto& l) { return l.name == onset.name; });
+    const moorings::LineOptions& o = line->options;
+    const char* key = o.stiffness_N_m ? ".stiffness_N_m" : o.axial_stiffness_N ? ".axial_stiffness_N" : ".model";
+    refuse(floating, "moorings." + onset.name + key,
+           o.stiffness_N_m       ? fmt::format("{:g}", *o.stiffness_N_m)
+           : o.axial_stiffness_N ? fmt::format("{:g}", *o.axial_stiffness_N)
+                                 : "\"" + o.model + "\"",
+           fmt::format("when this line snaps taut, the masses at its ends swing with {:.3g} 1/s, and {} needs {:.3g} pieces of a "
+                       "step to follow (time.step_s is {} s, at most {} pieces are made): give a shorter step, a softer line or "
+                       "heavier bodies",
+                       onset.rate, name(bodies.integrator()), pieces, time.step(), bodies::System::most_pieces));
   }
-  // A window in which rk4 finds its step too long is tried again with pieces of it; the others cannot tell.
-  const double step = time.step(), least = time.integrator == Integrator::rk4 ? step / pieces_of_step(most_retries) : step;
-  if (least <= limit.step_s) return;
-  const auto taut =
-      std::ranges::find_if(floating.scenario().moorings, [&](const auto& named) { return named.name == limit.mode; });
-  const moorings::LineOptions& line = taut->options;
-  refuse(floating, "moorings." + limit.mode + (line.stiffness_N_m ? ".stiffness_N_m" : ".axial_stiffness_N"),
-         fmt::format("{:g}", line.stiffness_N_m ? *line.stiffness_N_m : *line.axial_stiffness_N),
-         fmt::format("when this line snaps taut, {} needs steps of at most {:.3g} s with the masses at its ends, and a window "
-                     "that fails is tried again with {:.3g} s at least (time.step_s is {} s): give a shorter step, a softer "
-                     "line or heavier bodies",
-                     name(floating.multibody().integrator()), limit.step_s, least, step));
 }
 
 scene::Doubts require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
@@ -149,7 +103,7 @@ void require_bending_blades(const FloatingSystem& floating) {
 
 scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
   require_stable(floating, stability);
-  require_stable_lines(floating, state);
+  require_followed_lines(floating);
   require_bending_blades(floating);
   return require_stable_coupling(floating, state, stability.linearisation);
 }

@@ -1,5 +1,5 @@
-// Limits on steps and windows that the linearised floating system of start.hpp does not have: lines that are slack at the start
-// and snap taut later, and loose coupling of rotor and bodies. Scenes beyond them are refused, by `check` and by `run` alike.
+// Limits on steps and windows that the linearised floating system of start.hpp does not have: lines that snap taut, and loose
+// coupling of rotor and bodies. Scenes beyond them are refused, by `check` and by `run` alike.
 // Tested in tests/src/coupling/limits_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,13 +12,9 @@
 
 namespace spindrift::coupling {
 
-/// Of the tension-only line whose taut spring is stiffest for the mobility of its ends, joints and added mass included. step_s
-/// infinite where there is none.
-bodies::StepLimit taut_line_limit(FloatingSystem& floating, const bodies::BodiesState& state);
-
-/// Throws scene::SceneError where a taut line needs a smaller step than the scene's may become (retries.hpp). Where particles
-/// choose the step, it is limited.
-void require_stable_lines(FloatingSystem& floating, const bodies::BodiesState& state);
+/// Throws scene::SceneError where a line, when it snaps taut, needs more pieces of the scene's step than are made
+/// (bodies::System::watch). @pre the start has been made.
+void require_followed_lines(FloatingSystem& floating);
 
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,
 /// unless coupling.accept_unstable: then what is accepted.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/bodies/mode_names.hpp"
+#include "src/coupling/onsets.hpp"
 
 namespace spindrift::coupling {
 
@@ -70,6 +71,7 @@ Start start_without_memory(FloatingSystem& floating) {
 
 Start make_start(FloatingSystem& floating) {
   Start start = start_without_memory(floating);
+  floating.multibody().watch(line_onsets(floating, start.state));
   floating.multibody().begin(start.state, 0.0);
   return start;
 }

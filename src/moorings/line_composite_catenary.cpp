@@ -45,7 +45,12 @@ extern const LineModel composite_catenary{
     .keys = {"sections", "clumps", "bed_contact", "bed_friction"},
     .hangs = true,
     .make = [](const LineOptions& o, const LineEnvironment& e) {
-      return static_line(composite_line(o, e.water_density_kg_m3, e.gravity_m_s2));
+      const CompositeParts parts = composite_parts(o, e.water_density_kg_m3, e.gravity_m_s2);
+      double weight = 0.0;
+      for (const CatenarySection& s : parts.sections) weight += s.weight_per_m * s.length;
+      for (const double hung : parts.hung) weight += std::abs(hung);
+      return static_line(composite_line(o, e.water_density_kg_m3, e.gravity_m_s2),
+                         taut_from_sag(o.length_m(), weight, o.series_stiffness_N_m()));
     }};
 
 }  // namespace spindrift::moorings

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/mooring/line_table.hpp"
 
+#include <algorithm>
+
 #include "src/moorings/model.hpp"
 #include "src/moorings/table_file.hpp"
 
@@ -16,6 +18,18 @@ class Tabulated final : public StaticLine {
   }
   LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const override {
     return LineTable{rows_.distance, rows_.tension, slope_}.forces(span, rate);
+  }
+  /// From where it is a hundredth as stiff as where it is stiffest.
+  std::optional<TautLine> taut() const override {
+    const auto steepest = [&](std::size_t n) {  // between two rows
+      return (rows_.tension[n + 1] - rows_.tension[n]) / (rows_.distance[n + 1] - rows_.distance[n]);
+    };
+    double most = 0.0;
+    for (std::size_t n = 0; n + 1 < slope_.size(); ++n) most = std::max({most, steepest(n), slope_[n], slope_[n + 1]});
+    if (most == 0.0) return std::nullopt;
+    std::size_t first = 0;
+    while (steepest(first) < 0.01 * most) ++first;
+    return TautLine{rows_.distance[first], most, 0.0};
   }
 
  private:

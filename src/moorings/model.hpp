@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,28 +25,40 @@ struct LineEnvironment {
   std::shared_ptr<const Bed> bed{};  ///< null: flat, at the level of each line's lower end
 };
 
+/// Where a line becomes stiff at once, and how stiff it is then.
+struct TautLine {
+  double chord_m = 0.0;  ///< distance of the ends from which on it counts as taut
+  double stiffness_N_m = 0.0, damping_N_s_m = 0.0;
+};
+/// Of a line that sags: from where its sag gives a hundredth of the stiffness that it has when it is straight.
+TautLine taut_from_sag(double length_m, double weight_N, double stiffness_N_m);
+
 /// A line without a state: forces on both ends from where they are.
 class StaticLine {
  public:
   virtual ~StaticLine() = default;
   /// `span` = fairlead - anchor [m], `rate` = its time derivative [m/s].
   virtual LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const = 0;
+  /// Nothing for a line that never snaps.
+  virtual std::optional<TautLine> taut() const = 0;
 };
 
 /// Of a line of kernels/mooring.
 template <MooringLine L>
-std::unique_ptr<const StaticLine> static_line(L line) {
+std::unique_ptr<const StaticLine> static_line(L line, std::optional<TautLine> taut = {}) {
   class Of final : public StaticLine {
    public:
-    explicit Of(L l) : line_(std::move(l)) {}
+    Of(L l, std::optional<TautLine> taut) : line_(std::move(l)), taut_(taut) {}
     LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const override {
       return line_.forces(span, rate);
     }
+    std::optional<TautLine> taut() const override { return taut_; }
 
    private:
     L line_;
+    std::optional<TautLine> taut_;
   };
-  return std::make_unique<Of>(std::move(line));
+  return std::make_unique<Of>(std::move(line), taut);
 }
 
 struct LineModel {

@@ -128,6 +128,14 @@ LineEnds Moorings::ends(const Line& line, std::span<const Motion> bodies) const 
   return {moving(line.anchor, bodies), moving(line.fairlead, bodies)};
 }
 
+std::optional<TautLine> Moorings::taut(std::size_t l) const { return lines_[l].dynamic ? std::nullopt : lines_[l].model->taut(); }
+
+Moorings::Chord Moorings::chord(std::size_t l, std::span<const Motion> bodies) const {
+  const Line& line = lines_[l];
+  const auto body = [](const End& end) { return end.body < 0 ? std::nullopt : std::optional(std::size_t(end.body)); };
+  return {moving(line.anchor, bodies).position, moving(line.fairlead, bodies).position, body(line.anchor), body(line.fairlead)};
+}
+
 std::vector<LineEnds> Moorings::ends(const Network& network, std::span<const Motion> bodies) const {
   std::vector<LineEnds> all;
   for (const std::size_t l : network.lines) all.push_back(ends(lines_[l], bodies));

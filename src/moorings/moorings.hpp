@@ -46,6 +46,14 @@ class Moorings {
   /// Of all lines; of dynamic ones at the end of the last step.
   std::vector<LineTension> tensions(std::span<const Motion> bodies) const;
   bool is_dynamic(std::size_t line) const { return lines_[line].dynamic.has_value(); }
+  /// Where it snaps taut; nothing for lines that do not, and for dynamic ones, which make steps of their own.
+  std::optional<TautLine> taut(std::size_t line) const;
+  /// A line between two bodies or a body and the earth.
+  struct Chord {
+    Eigen::Vector3d anchor, fairlead;              ///< earth frame [m]
+    std::optional<std::size_t> anchor_body, body;  ///< nothing: the earth
+  };
+  Chord chord(std::size_t line, std::span<const Motion> bodies) const;
   /// Places and velocities of all junctions at the end of the last step; without memory where they rest.
   std::vector<LineEnd> junction_motions(std::span<const Motion> bodies) const;
 
