@@ -19,12 +19,30 @@ std::string spoken(const RotorSource& rotor) {
   return name;
 }
 
+/// Modes of a straight beam hold for bending that is small beside its length.
+std::optional<NumericalFailure> bent_too_far(const RotorSource& rotor, const bodies::BodiesState& state, double t) {
+  if (!rotor.loads.flexible()) return {};
+  const double most = rotor.radius / 3.0;
+  const std::vector<Eigen::Vector2d> tips = rotor.loads.tips(t, state.motions);
+  for (std::size_t blade = 0; blade < tips.size(); ++blade)
+    if (!(tips[blade].norm() <= most))
+      return NumericalFailure(
+          fmt::format("t = {:.4g} s: blade {} of the {} bends by {:.4g} m at its tip, the limit is {:.4g} m, a third of its "
+                      "length: small bending is all that its modes know; look at its stiffness, at the wind and at the "
+                      "rotor's speed",
+                      t, blade + 1, spoken(rotor), tips[blade].norm(), most),
+          rotor.name, long(state.tick), t, most);
+  return {};
+}
+
 }  // namespace
 
 std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state) {
   const Scenario& s = floating.scenario();
-  if (!s.has_sea() || s.has_particles()) return {};
   const double t = double(state.tick) * floating.timeline().tick_s(), bed = -s.environment.water_depth_m;
+  for (const RotorSource& rotor : floating.rotors())
+    if (std::optional<NumericalFailure> bent = bent_too_far(rotor, state, t)) return bent;
+  if (!s.has_sea() || s.has_particles()) return {};
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const auto& [name, body] = s.bodies[b];
     const bodies::Reach r = bodies::reach(body, state.motions[b]);

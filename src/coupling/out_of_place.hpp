@@ -1,4 +1,4 @@
-// Bodies and rotors that have come to where no model of the scene holds. SPDX-License-Identifier: Apache-2.0
+// Bodies, rotors and blades that have come to where no model of the scene holds. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace spindrift::coupling {
 
-/// What is out of place at the state's time, beside a sea without particles: a body in the bed, which carries nothing, by more
-/// than a tenth of its size; a rotor in the water, whose blades know air alone. Tested in
-/// tests/src/coupling/out_of_place_test.cpp.
+/// What is out of place at the state's time: a blade that bends by more than a third of its length. Beside a sea without
+/// particles also a body in the bed, which carries nothing, by more than a tenth of its size, and a rotor in the water, whose
+/// blades know air alone. Tested in tests/src/coupling/out_of_place_test.cpp.
 std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state);
 
 }  // namespace spindrift::coupling

@@ -77,7 +77,7 @@ for module, content in BATTERY.items():
             with self.subTest(case["what"]):
                 self.assertTrue(("reaches" in case) != bool(case.get("named")), "each row says how it ends")
                 self.assertEqual(verdict(case)[1], "", case["what"])
-    setattr(Nightly if module in ("beams", "control", "wake", "turbulence", "rotors", "resolved") else Extremes, f"test_{module}", test)
+    setattr(Nightly if module in ("beams", "control", "wake", "turbulence", "rotors", "resolved", "blades", "tank") else Extremes, f"test_{module}", test)
 
 
 def table():

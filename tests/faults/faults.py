@@ -19,7 +19,7 @@ INPUTS = ROOT / "inputs"
 SCENE = [INPUTS / "leble_barakos/case3_engineering.toml", "--set", "time.end_s=60.0", "--set", "checkpoint.interval_s=5.0"]
 # Seconds of work each: particles that settle and break loose, a steady march of a resolved rotor, and both round a platform.
 TANK = [INPUTS / "validation/dam_break/koshizuka_oka.toml", "--set", "sea.particles.spacing_m=0.02", "--set", "time.end_s=0.5"]
-AIR = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.flow.drop=0.0", "--set", "time.end_s=50.0"]
+AIR = [INPUTS / "leble_barakos/case3_rotor.toml", "--set", "time.end_s=50.0"]
 COUPLED = [INPUTS / "leble_barakos/case3_demo.toml", "--set", "sea.particles.spacing_m=5.0", "--set", "start.air_steps=30", "--set", "time.end_s=0.4"]
 # The same three parts as small as they come, as a file of a job's folder: air that settles, then both fluids, saved at every window or by the default alone.
 JOB = '''base = "%s"
@@ -152,22 +152,28 @@ def everything_of(mark):
     return found
 
 
-def broken_off(folder):
+def broken_off(folder, scene, until):
     """A run that ended half way, to be damaged; and the unbroken one's history."""
-    expected, _ = whole(folder)
-    job(SCENE, folder / "half", "--until", 30)
+    folder.mkdir()
+    expected, _ = whole(folder, scene)
+    job(scene, folder / "half", "--until", until)
     return expected
 
 
 def damaged(folder, count, pick, damage):
-    expected, aside = broken_off(folder), 0
+    """Checkpoints of engineering models, and of both fluids, in turns."""
+    both = folder / "both.toml"
+    both.write_text(JOB + "checkpoint.interval_s = 0.1\n")
+    scenes = [(folder / "engineering", SCENE, 30), (folder / "fluids", [both], 0.3)]
+    expected, aside = [broken_off(*one) for one in scenes], 0
     for n in range(count):
-        out = folder / "damaged"
-        shutil.copytree(folder / "half", out)
+        place, scene, _ = scenes[n % 2]
+        out = place / "damaged"
+        shutil.copytree(place / "half", out)
         newest = max((out / "checkpoints").glob("*.h5"))
         newest.write_bytes(damage(newest.read_bytes()))
-        job(SCENE, out)
-        assert history(out) == expected, f"another history after damage {n}"
+        job(scene, out)
+        assert history(out) == expected[n % 2], f"another history after damage {n}"
         aside += len(list((out / "checkpoints").glob("*.damaged")))
         shutil.rmtree(out)
     return f"{count} times, {aside} checkpoints set aside"
@@ -187,23 +193,51 @@ def truncate(folder, count, pick):
 
 
 def full_disk(folder, count, pick):
-    """No file may grow beyond a limit: the job fails in words, and the next one, with room, goes on to the same end."""
+    """A disk that is full, and files that may grow no more: the job fails in words, and the next one, with room, goes on to the same end."""
     expected, _ = whole(folder)
-    failed = 0
+    failed, real = 0, may_mount()
     for n in range(count):
         out, most = folder / f"full_{n}", int(2 ** pick.uniform(10.0, 20.0))
+        if real and n % 2 == 0:
+            code, said, found = on_small_disk(out, most)
+        else:
+            def limit():
+                resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
-        def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-
-        code, said = job(SCENE, out, code=None, preexec_fn=limit, env={**os.environ, "OMPI_MCA_btl": "self"})  # MPI itself writes no large file
+            code, said = job(SCENE, out, code=None, preexec_fn=limit, env={**os.environ, "OMPI_MCA_btl": "self"})  # MPI itself writes no large file
+            job(SCENE, out)
+            found = history(out)
         assert code in (0, 4), f"{most} bytes: exit code {code}\n{said[-2000:]}"
         assert code == 0 or "File too large" in said or "files may have" in said or "room" in said or "space" in said, said[-2000:]
         failed += code == 4
-        job(SCENE, out)
-        assert history(out) == expected, f"another history after a disk of {most} bytes"
-    return f"{count} sizes, {failed} runs stopped by them"
+        assert found == expected, f"another history after a disk of {most} bytes"
+    return f"{count} sizes{', every other a disk of its own' if real else ''}, {failed} runs stopped by them"
+
+
+NAMESPACE = ["unshare", "--map-root-user", "--mount", "--propagation", "private", "sh", "-c"]
+
+
+def may_mount():
+    """Whether this machine lets a test mount a disk in memory."""
+    with tempfile.TemporaryDirectory() as place:
+        try:
+            return subprocess.run([*NAMESPACE, f"mount -t tmpfs -o size=64k none '{place}'"], capture_output=True, check=False).returncode == 0
+        except OSError:
+            return False
+
+
+def on_small_disk(out, size):
+    """(exit code, what was said) of a job on a disk of this size, and the history after the disk has grown and the job ran again."""
+    out.mkdir()
+    kept = out.with_suffix(".kept")
+    kept.mkdir()
+    words = " ".join(f"'{word}'" for word in [PROGRAM, "run", *map(str, SCENE), "--out", f"{out}/run", *QUIET, "--restart"])
+    script = (f"mount -t tmpfs -o size={max(size // 4096, 2) * 4}k none '{out}' || exit 9\n{words} > '{kept}/said' 2>&1\necho $? > '{kept}/code'\n"
+              f"mount -o remount,size=64m '{out}'\n{words} > '{kept}/said_again' 2>&1 || {{ cat '{kept}/said_again'; exit 1; }}\ncp '{out}/run/history.csv' '{kept}'")
+    done = subprocess.run([*NAMESPACE, script], capture_output=True, text=True, errors="replace", timeout=600, check=False)
+    assert done.returncode == 0, f"{size} bytes: {done.stdout[-2000:]}{done.stderr[-2000:]}"
+    return int((kept / "code").read_text()), (kept / "said").read_text(errors="replace"), (kept / "history.csv").read_bytes()
 
 
 def two_jobs(folder, count, pick):

@@ -12,16 +12,16 @@ using namespace spindrift::bodies;
 
 namespace {
 
-constexpr double mass = 1000.0, gravity = 9.81, drop = 1.0, step_s = 0.01;
+constexpr double weight_kg = 1000.0, pull = 9.81, drop = 1.0, step_s = 0.01;
 
 /// Falls from z = 0 on a spring that begins at z = -drop.
 System weight_on(double stiffness, Integrator integrator) {
-  const std::vector<Body> bodies{examples::body("weight", mass, {100, 100, 100}, {0, 0, 0})};
+  const std::vector<Body> bodies{examples::body("weight", weight_kg, {100, 100, 100}, {0, 0, 0})};
   const auto push = [stiffness](double, std::span<const Motion> m, std::span<Wrench> w) {
     w[0].force.z() += stiffness * std::max(0.0, -drop - m[0].position.z());
   };
-  System system(bodies, {}, {gravity_source(bodies, gravity), {"spring", push, {}}}, integrator);
-  system.watch({{"spring", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, std::sqrt(stiffness / mass)}});
+  System system(bodies, {}, {gravity_source(bodies, pull), {"spring", push, {}}}, integrator);
+  system.watch({{"spring", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, std::sqrt(stiffness / weight_kg)}});
   return system;
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("a weight that bounces on a spring far too stiff for the step keeps it
   const Integrator integrator = GENERATE(Integrator::rk4, Integrator::symplectic);
   const double turning = GENERATE(0.7, 3.0, 8.6, 31.0);  // radians per step: rk4 is unstable from 2.83, leapfrog from 2
   CAPTURE(name(integrator), turning);
-  System system = weight_on(mass * std::pow(turning / step_s, 2), integrator);
+  System system = weight_on(weight_kg * std::pow(turning / step_s, 2), integrator);
   BodiesState state = examples::start(system);
   double highest = -drop, lowest = 0.0, last_highest = -drop;
   for (int n = 0; n < 2000; ++n) {
@@ -56,7 +56,7 @@ TEST_CASE("a step that meets nothing that is watched is the step it was", "[bodi
 }
 
 TEST_CASE("a spring that no number of pieces follows is named, and the state stays", "[bodies][fast]") {
-  System system = weight_on(mass * 1e14, Integrator::rk4);
+  System system = weight_on(weight_kg * 1e14, Integrator::rk4);
   BodiesState state = examples::start(system);
   StepReport report;
   while (report.ok() && state.tick < 60) report = system.advance(state, step_s, 1);

@@ -37,3 +37,16 @@ TEST_CASE("a rotor is named where its lowest blade is in the water", "[coupling]
   REQUIRE(found);
   CHECK_THAT(found->what(), Contains("the rotor reaches 1 m into the water"));
 }
+
+TEST_CASE("a blade that bends by more than a third of its length is named", "[coupling][fast]") {
+  const auto found_with = [](const char* structure) {
+    FloatingSystem floating(test::scenario("base = \"inputs/leble_barakos/flexible_blades.toml\"\n",
+                                           {std::string("rotor.blade_structure='") + structure + "'"}));
+    return out_of_place(floating, make_start(floating).state);
+  };
+  CHECK(!found_with("inputs/turbines/dtu_10mw/blade_structure.csv"));
+  const auto found = found_with("tests/extremes/files/blade_rubber.csv");
+  REQUIRE(found);
+  CHECK_THAT(found->what(), Contains("blade") && Contains("a third of its length"));
+  CHECK(found->place == "rotor");
+}
