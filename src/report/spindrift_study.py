@@ -208,23 +208,23 @@ class Runs:
             time.sleep(0.02)
         return not self.stopping
 
-    def time_again(self, rung, repeats):
-        """Times the first run of a rung again, by itself, until it has been timed `repeats` times."""
+    def time_again(self, rung):
+        """Times the first run of a rung once more, by itself. False where that came to nothing."""
         run = rung["runs"][0]
         entry = self.results[run["name"]]
         out = self.folder / "timing"
-        while len(entry["core_s"]) < repeats and not self.stopping:
-            process = self._start(rung, run, out, False)
-            while process.poll() is None:
-                if self.stopping:
-                    process.send_signal(signal.SIGTERM)
-                time.sleep(0.02)
-            summary = ended(out)
-            if self.stopping or not summary or summary["exit_code"] != 0:
-                return
-            entry["core_s"].append(summary["processor_seconds"])
-            write_whole(self.ledger(run), json.dumps(entry))
+        process = self._start(rung, run, out, False)
+        while process.poll() is None:
+            if self.stopping:
+                process.send_signal(signal.SIGTERM)
+            time.sleep(0.02)
+        summary = ended(out)
+        if self.stopping or not summary or summary["exit_code"] != 0:
+            return False
+        entry["core_s"].append(summary["processor_seconds"])
+        write_whole(self.ledger(run), json.dumps(entry))
         shutil.rmtree(out, ignore_errors=True)
+        return True
 
 
 def shares_of_parts(parts):
@@ -361,9 +361,9 @@ def main():
         left_out += beyond
         names |= {r["name"] for _, r in more}
         finished = runs.run(more)
-    if finished:
-        for rung in judge().to_time():
-            runs.time_again(rung, plan["options"]["repeats"])
+    while finished and not runs.stopping and (rivals := judge().to_time(plan["options"]["repeats"])):
+        if not all(runs.time_again(rung) for rung in rivals):
+            break
     if runs.stopping:
         say(f"stopped on request: {len(runs.results)} runs are done; the same command goes on")
         return STOPPED

@@ -2,13 +2,16 @@
 the plan and of what each run came to; no files but histories. Called by spindrift_study.py; tested in
 tests/src/report/study_test.py. SPDX-License-Identifier: Apache-2.0"""
 import math
+import statistics
 
 import study_measures as measures
 
 WORDS = {"rms": "rms difference of", "max": "largest difference of", "mean": "mean of", "last": "end of", "deviation": "deviation of",
          "peak": "peak of", "amplitude": "amplitude of", "phase": "phase of", "period": "period of", "damping": "damping of",
          "damage": "damage-equivalent range of"}
-SAME_COST = 0.03  # relative: costs nearer than that are called equal, the more accurate rung is taken
+SAME_COST = 0.05  # relative: costs nearer than that are called equal, the more accurate rung is taken
+SURE_COST = 0.015  # a ratio of costs is known when the standard error of its median is below that
+LEAST_PAIRS, MOST_TIMINGS, LEAST_AGAIN_S = 4, 12, 60.0  # turns of two rungs; timings of a run; processor time that timing again may take in any case
 
 
 def number(value, digits=3):
@@ -243,16 +246,39 @@ class Judge:
     def choose(self):
         """The cheapest good one; of those that cost the same the more accurate."""
         good = self.good()
-        if not good:
-            return None
-        cheapest = self.costs[good[0]["name"]]["core_s"]
-        same = [r for r in good if self.costs[r["name"]]["core_s"] <= cheapest * (1.0 + SAME_COST)]
-        return min(same, key=self.shortfall)
+        return min((r for r in good if self._dearer(r, good[0])[0] <= 1.0 + SAME_COST), key=self.shortfall) if good else None
 
-    def to_time(self):
-        """Rungs whose cost decides the answer: the good ones that cost less than twice the cheapest."""
+    def _timings(self, rung):
+        return self.results[rung["runs"][0]["name"]]["core_s"]
+
+    def _dearer(self, rung, cheapest):
+        """How many times as dear a rung is, by the least timings or by the median over turns in which both were timed, after the first, whichever is less: others on the computer
+        slow down what runs at a time alike. And the standard error of that median, infinite without enough turns."""
+        turns = [a / b for a, b in zip(self._timings(rung)[1:], self._timings(cheapest)[1:])]
+        least = self.costs[rung["name"]]["core_s"] / self.costs[cheapest["name"]]["core_s"]
+        if rung is cheapest or len(turns) < LEAST_PAIRS:
+            return least, 0.0 if rung is cheapest else math.inf
+        middle = statistics.median(turns)
+        return min(least, middle), 1.86 * statistics.median(abs(t - middle) for t in turns) / math.sqrt(len(turns))  # of normal errors
+
+    def to_time(self, repeats):
+        """Rungs that are to be timed once more, in turns. Those whose cost decides the answer, the good ones that cost less than twice the cheapest, are timed `repeats` times;
+        then those not much dearer than the cheapest until it is known which are."""
         good = self.good()
-        return [r for r in good if self.costs[r["name"]]["core_s"] < 2.0 * self.costs[good[0]["name"]]["core_s"]] if len(good) > 1 else []
+        if len(good) < 2:
+            return []
+        cost = {r["name"]: self.costs[r["name"]]["core_s"] for r in good}
+        least = cost[good[0]["name"]]
+        few = [r for r in good if cost[r["name"]] < 2.0 * least and len(self._timings(r)) < repeats]
+        if few or repeats == 1:
+            fewest = min((len(self._timings(r)) for r in few), default=0)
+            return [r for r in few if len(self._timings(r)) == fewest]
+        again = math.fsum(s for r in self.results.values() for s in r["core_s"][1:])
+        if again > max(LEAST_AGAIN_S, math.fsum(s for r in self.results.values() for s in r["core_s"][:1])):
+            return []
+        near = [r for r in good if cost[r["name"]] < 1.25 * least]
+        unsure = [r for r in near if self._dearer(r, good[0])[1] > SURE_COST and len(self._timings(r)) < MOST_TIMINGS]
+        return near if unsure else []
 
     # Sources -------------------------------------------------------------------------------------------------------------------
     def _pivot(self):

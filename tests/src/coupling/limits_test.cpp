@@ -32,7 +32,7 @@ TEST_CASE("a line that no step can follow when it snaps taut is refused", "[coup
   const std::span<const bodies::Onset> watched = floating.multibody().watched();
   REQUIRE(watched.size() == 1);
   CHECK(watched[0].name == "chain");
-  CHECK(watched[0].rate <= std::sqrt(1e5) * (1.0 + 1e-9));
+  CHECK(watched[0].rate < 1.03 * std::sqrt(1e5));  // its fairlead is half a metre off the centre
   CHECK(watched[0].rate > 0.5 * std::sqrt(1e5));
   CHECK_NOTHROW(require(with({"time.step_s=0.05"})));
   CHECK_THROWS_WITH(require(with({"time.step_s=0.1", "moorings.chain.stiffness_N_m=1e14"})),
