@@ -5,6 +5,7 @@ import os
 import random
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
@@ -164,6 +165,27 @@ measure = "last"
         self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
         self.assertIn('did you mean "flow.lift_coefficient"', done.stdout + done.stderr)
         self.assertEqual(self.study(text.replace("coefficientt", "coefficient"), "--dry-run").returncode, 0)
+
+
+
+class Nightly(Study):
+    """Others keep the computer busy."""
+
+    def test_on_a_busy_computer_nineteen_of_twenty_repeats_name_the_same_rung(self):
+        busy = "import random, time\nwhile True:\n    t = time.time() + 2 * random.random()\n    while time.time() < t: sum(range(10000))\n    time.sleep(2 * random.random())"
+        others = [subprocess.Popen([sys.executable, "-c", busy]) for _ in range(os.cpu_count())]
+        try:
+            answers = []
+            for n in range(20):
+                done = subprocess.run([str(PROGRAM), "study", ROOT / "inputs/studies/case2_time_step.toml", "--out", self.path / f"out_{n}"], capture_output=True, text=True,
+                                      check=False, timeout=600)
+                self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+                answers.append(json.loads((self.path / f"out_{n}/study.json").read_text())["answer"])
+        finally:
+            for other in others:
+                other.kill()
+                other.wait()
+        self.assertGreaterEqual(max(answers.count(a) for a in answers), 19, answers)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,8 @@ System weight_on(double stiffness, Integrator integrator) {
     w[0].force.z() += stiffness * std::max(0.0, -drop - m[0].position.z());
   };
   System system(bodies, {}, {gravity_source(bodies, pull), {"spring", push, {}}}, integrator);
-  system.watch({{"spring", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, std::sqrt(stiffness / weight_kg)}});
+  system.watch(
+      {{"spring", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, std::sqrt(stiffness / weight_kg)}});
   return system;
 }
 
