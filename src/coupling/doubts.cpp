@@ -515,7 +515,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
       around.shapes[name] = box, in_sea.boxes.emplace_back(name, box);
   }
   append(all, line_doubts(s.moorings, around));
-  append(all, junction_doubts(s.junctions, around.depth_m));
+  append(all, junction_doubts(s.junctions, around));
   doubt_meshes(all, s);
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));

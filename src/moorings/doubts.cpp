@@ -3,19 +3,35 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/interpolation.hpp"
 #include "kernels/mooring/bed.hpp"
 #include "kernels/mooring/line_catenary.hpp"
+#include "kernels/mooring/line_spring_damper.hpp"
 #include "src/moorings/composite.hpp"
 #include "src/moorings/model.hpp"
+#include "src/moorings/table_file.hpp"
 
 namespace spindrift::moorings {
 
 namespace {
 
 bool hangs(const LineOptions& line) { return line_models().named(line.model).hangs; }
+
+/// To an anchor under water, more steeply than the level lines by which models are held from the walls of a tank.
+bool goes_down(const LineOptions& line) {
+  constexpr double least = 0.05;  // of the distance of the ends
+  return line.anchor_m->z() < 0.0 && line.span().z() > least * line.span().norm();
+}
+
+/// From a fairlead under water, less steeply than what lowers a load.
+bool comes_up(const LineOptions& line) {
+  const Eigen::Vector3d along = -line.span();
+  return line.fairlead_m->z() < 0.0 && along.z() > 0.0 && along.z() < along.head<2>().norm();
+}
 
 void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N) {
   if (line.length_m() == 0.0) return;  // a table has none
@@ -57,21 +73,103 @@ void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOpti
     doubt(fmt::format(".sections[{}].weight_N_m", n), line.sections[n].weight_N_m, line.sections[n].axial_stiffness_N);
 }
 
-/// Weights and floats of a line are less than what it holds, and a line at rest is lifted by all of a float, also where it would
-/// lie at the surface.
+bool is_spring(const LineOptions& line) { return line.model == LineSpringDamper::name; }
+
+std::string stiffness_key(const LineOptions& line) { return line.stiffness_N_m ? ".stiffness_N_m" : ".axial_stiffness_N"; }
+
+/// A spring between floating bodies and the earth, by all bodies' mass on it. Floats of any size swing in times of sqrt(size / g)
+/// (Froude). Tendons, the stiffest of moorings, hold one in 1 to 2 of these, soft lines of a model test in 50. A line whose
+/// length a hundredth of the weight would double holds nothing: vessels' lines have from 0.03 of their weight on.
+void doubt_spring(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+  if (!is_spring(line) || around.weight_N <= 0.0 || around.gravity_m_s2 <= 0.0) return;
+  const double stiffness = line.series_stiffness_N_m(), mass = around.weight_N / around.gravity_m_s2;
+  constexpr double most_damping = 2.0, least_period = 0.3, least_share = 0.01;
+  if (const double ratio = line.damping_N_s_m / (2.0 * std::sqrt(stiffness * mass)); ratio > most_damping)
+    doubts.push_back({at + ".damping_N_s_m",
+                      fmt::format("{:.4g} N s/m, {:.3g} of critical for all bodies on this line", line.damping_N_s_m, ratio),
+                      fmt::format("up to {:g} of it", most_damping), "look at its unit: N s/m, not kN s/m or per cent"});
+  const auto shape = around.shapes.find(line.body);
+  if (around.depth_m < 0.0 || line.anchor_body != "earth" || shape == around.shapes.end()) return;
+  const double swing = std::sqrt(0.5 * shape->second.diagonal().norm() / around.gravity_m_s2);
+  const std::string key = at + stiffness_key(line), what = fmt::format("a spring of {:.4g} N/m", stiffness),
+                    advice = line.stiffness_N_m ? "look at its unit: N/m of the whole line, neither EA nor kN/m"
+                                                : "look at its unit: N, not kN or MN, and EA of the line, not N/m";
+  if (const double period = 2.0 * pi * std::sqrt(mass / stiffness); period < least_period * swing)
+    doubts.push_back(
+        {key, fmt::format("{}, on which all bodies swing in {:.3g} s", what, period),
+         fmt::format("{:.3g} s or more, {:g} of sqrt(size / g): a tendon has more", least_period * swing, least_period), advice});
+  else if (const double load = stiffness * line.length_m(); load < least_share * around.weight_N)
+    doubts.push_back({key, fmt::format("{}: {:.3g} N double its length", what, load),
+                      fmt::format("{:g} of the weight of all bodies, {:.3g} N, at least", least_share, around.weight_N), advice});
+}
+
+/// Lines of one mooring are alike: their axial stiffnesses, which do not go with the length, are of one order.
+void doubt_unlike(scene::Doubts& doubts, const std::vector<scene::Named<LineOptions>>& lines) {
+  constexpr double most = 100.0;
+  for (const auto& [name, line] : lines) {
+    if (!is_spring(line)) continue;
+    std::vector<double> others;
+    for (const auto& [other_name, other] : lines)
+      if (is_spring(other) && other_name != name && other.body == line.body && other.anchor_body == line.anchor_body)
+        others.push_back(other.series_stiffness_N_m() * other.length_m());
+    if (others.size() < 2) continue;
+    std::ranges::nth_element(others, others.begin() + std::ptrdiff_t(others.size() / 2));
+    const double median = others[others.size() / 2], own = line.series_stiffness_N_m() * line.length_m();
+    if (own > most * median || own < median / most)
+      doubts.push_back({"moorings." + name + stiffness_key(line),
+                        fmt::format("an axial stiffness of {:.3g} N beside lines of {:.3g} N", own, median),
+                        fmt::format("within {:g} times that of the body's other lines", most),
+                        "look at its unit, and whether it is EA or the stiffness of the whole line"});
+  }
+}
+
+/// What hangs on lines or where they meet weighs less than what the lines hold; whether this does.
+bool doubt_hung(scene::Doubts& doubts, const std::string& key, double mass_kg, double volume_m3, const std::string& where,
+                const LineSurroundings& around) {
+  constexpr double most = 0.5;  // of the weight of all bodies
+  const double hung = around.gravity_m_s2 * (mass_kg - around.water_density_kg_m3 * volume_m3);
+  if (around.depth_m < 0.0 || around.weight_N <= 0.0 || std::abs(hung) <= most * around.weight_N) return true;
+  doubts.push_back({key, fmt::format("{} of {:.3g} N in water{}", hung < 0.0 ? "a lift" : "a weight", std::abs(hung), where),
+                    fmt::format("up to half the weight of all bodies, {:.3g} N", around.weight_N),
+                    "look at volume_m3 and mass_kg, and at their units"});
+  return false;
+}
+
+/// Coefficients of the water on a dynamic line: chain has 2.4 on the bar's diameter, 1.33 on that of its volume (DNV-OS-E301).
+void doubt_coefficients(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
+  constexpr double most = 5.0;
+  for (const auto& [key, value] :
+       {std::pair{".drag_coefficient", line.drag_coefficient}, std::pair{".axial_drag_coefficient", line.axial_drag_coefficient},
+        std::pair{".added_mass_coefficient", line.added_mass_coefficient}})
+    if (value > most)
+      doubts.push_back({at + key, fmt::format("{:.4g}", value),
+                        fmt::format("up to {:g} (DNV-OS-E301: chain has 1.3 to 3.2)", most),
+                        "coefficients have no unit; look at the point"});
+}
+
+/// The tension of a tabulated line at the start is less than all that floats.
+void doubt_table(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+  if (line.table.empty() || around.weight_N <= 0.0) return;
+  const TableFile table = read_line_table(line.table);
+  const double apart = line.span().norm();
+  if (const double tension = interpolate_linear(table.distance, table.tension, apart); tension > around.weight_N)
+    doubts.push_back({at + ".table", fmt::format("a tension of {:.3g} N at the start, at {:.4g} m", tension, apart),
+                      fmt::format("a tension below the weight of all bodies, {:.3g} N", around.weight_N),
+                      "look at the units of the table, m and N, and at the place of the ends"});
+}
+
+/// A line at rest is lifted by all of a float, also where it would lie at the surface.
 void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
-  if (line.sections.empty() || around.depth_m < 0.0) return;
+  bool light = true;
+  for (const ClumpOptions& clump : line.clumps)
+    light &=
+        doubt_hung(doubts, at + ".clumps", clump.mass_kg, clump.volume_m3, fmt::format(" at {:.4g} m", clump.distance_m), around);
+  if (!light || line.sections.empty() || around.depth_m < 0.0) return;
   const CompositeParts parts = composite_parts(line, around.water_density_kg_m3, around.gravity_m_s2);
   const std::vector<double> heights =
       LineComposite(parts.sections, parts.hung, line.bed_friction, line.bed_contact).joint_heights(line.span());
   for (std::size_t joint = 0; joint < heights.size(); ++joint)
-    if (const double hung = parts.hung[joint]; around.weight_N > 0.0 && std::abs(hung) > 0.5 * around.weight_N)
-      doubts.push_back({at + ".clumps",
-                        fmt::format("{} of {:.3g} N in water at {:.4g} m", hung < 0.0 ? "a lift" : "a weight", std::abs(hung),
-                                    parts.joints[joint]),
-                        fmt::format("up to half the weight of all bodies, {:.3g} N", around.weight_N),
-                        "look at volume_m3 and mass_kg, and at their units"});
-    else if (const double z = line.anchor_m->z() + heights[joint]; hung < 0.0 && z > 0.0)
+    if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
       doubts.push_back({at + ".clumps",
                         fmt::format("the float at {:.4g} m is {:.4g} m above the surface at the start", parts.joints[joint], z),
                         "floats under water: this model has all of their lift at any height",
@@ -157,10 +255,13 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
     doubt_length(doubts, at, line, around.weight_N);
     doubt_material(doubts, at, line, weight_N_m);
+    doubt_spring(doubts, at, line, around);
     doubt_floats(doubts, at, line, around);
     doubt_fairlead(doubts, at, line, around);
     doubt_friction(doubts, at, line);
     doubt_diameter(doubts, at, line);
+    doubt_coefficients(doubts, at, line);
+    doubt_table(doubts, at, line, around);
     if (line_models().named(line.model).make_dynamic)
       doubt_segments(doubts, at, line, weight_N_m), doubt_step(doubts, at, line, around);
     if (around.depth_m < 0.0 || line.anchor_body != "earth") continue;
@@ -178,24 +279,32 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor on the bed at {:.4g} m, where the line lies", -depth_m),
                         "look at anchor_m and " + bed_key + ", or say bed_contact = false"});
-    else if (!hangs(line) && above > 0.5 * depth_m && line.anchor_m->z() < -0.1 * depth_m)
+    else if (above > 0.5 * depth_m && goes_down(line) && (on_table || !around.bed))
       doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is {:.4g} m above the bed", line.anchor_m->z(), above),
                         fmt::format("an anchor near the bed at {:.4g} m", -depth_m),
                         "look at anchor_m and environment.water_depth_m"});
+    else if (!hangs(line) && comes_up(line) && line.anchor_m->z() > 0.25 * depth_m)
+      doubts.push_back({at + ".anchor_m", fmt::format("z = {:.4g} m is above water", line.anchor_m->z()),
+                        fmt::format("an anchor on the bed at {:.4g} m, or by the water's surface", -depth_m),
+                        "look at the sign of z: up is positive"});
     if (line.fairlead_m->z() < -depth_m && around.masses_kg.contains(line.body))
       doubts.push_back({at + ".fairlead_m", fmt::format("z = {:.4g} m is under the bed", line.fairlead_m->z()),
                         fmt::format("a fairlead above {:.4g} m", -depth_m), "look at its sign and at environment.water_depth_m"});
   }
+  doubt_unlike(doubts, lines);
   return doubts;
 }
 
-scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, double depth_m) {
+scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, const LineSurroundings& around) {
   scene::Doubts doubts;
-  for (const auto& [name, junction] : junctions)
-    if (depth_m >= 0.0 && junction.position_m.z() < -depth_m)
-      doubts.push_back({"junctions." + name + ".position_m",
-                        fmt::format("z = {:.4g} m is under the bed", junction.position_m.z()),
-                        fmt::format("a place above {:.4g} m", -depth_m), "look at its sign and at environment.water_depth_m"});
+  for (const auto& [name, junction] : junctions) {
+    const std::string at = "junctions." + name;
+    if (around.depth_m >= 0.0 && junction.position_m.z() < -around.depth_m)
+      doubts.push_back({at + ".position_m", fmt::format("z = {:.4g} m is under the bed", junction.position_m.z()),
+                        fmt::format("a place above {:.4g} m", -around.depth_m),
+                        "look at its sign and at environment.water_depth_m"});
+    doubt_hung(doubts, at, junction.mass_kg, junction.volume_m3, "", around);
+  }
   return doubts;
 }
 

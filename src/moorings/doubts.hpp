@@ -23,7 +23,6 @@ struct LineSurroundings {
   const Bed* bed = nullptr;                             ///< null: flat, at that depth
 };
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
-/// `depth_m` of the water, negative where there is none.
-scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, double depth_m);
+scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, const LineSurroundings& around);
 
 }  // namespace spindrift::moorings

@@ -202,8 +202,8 @@ TEST_CASE("a malformed junction is refused with what is wrong", "[moorings][fast
 }
 
 TEST_CASE("a junction that begins under the bed is doubted", "[moorings][fast]") {
-  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -210}}}}, 200.0).size() == 1);
-  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -190}}}}, 200.0).empty());
+  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -210}}}}, {200.0}).size() == 1);
+  CHECK(junction_doubts({{"crow", {.position_m = {0, 0, -190}}}}, {200.0}).empty());
 }
 
 TEST_CASE("a catenary between two bodies is legal where it does not ask for a bed", "[moorings][fast]") {
