@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
-#include "src/aero/control_options.hpp"
+#include "src/aero/wind_doubts.hpp"
 
 namespace spindrift::aero {
 
@@ -32,7 +34,7 @@ void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions
   if (start.speed < 0.0)
     doubts.push_back({at, fmt::format("{:.4g} rpm", start.speed / rad_s_per_rpm),
                       "above zero: clockwise seen from upwind, as the blades are made", "turn its sign, or the axis"});
-  const double tip = std::abs(start.speed) * start.radius;
+  const double tip = std::abs(start.speed) * std::max(start.radius, start.least_radius);
   if (tip > 130.0)
     doubts.push_back({at, fmt::format("{:.4g} rpm, tips at {:.4g} m/s", start.speed / rad_s_per_rpm, tip), "tips up to 130 m/s",
                       "look at its unit: rpm, not rad/s or deg/s"});
@@ -45,34 +47,18 @@ void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions
          "2 to 16", ratio < 2.0 ? "in rad/s or Hz? give rpm; or the wind is not in m/s" : "look at the units: rpm, m/s"});
 }
 
-void doubt_wind(scene::Doubts& doubts, const WindOptions& wind) {
-  if (wind.speed_m_s > 60.0)
-    doubts.push_back({"wind.speed_m_s", fmt::format("{:.4g} m/s", wind.speed_m_s),
-                      "up to 60 m/s, the gusts of the strongest class (IEC 61400-1)",
-                      "look at its unit: m/s, not km/h or knots"});
-  if (wind.law != WindLaw::uniform && *wind.reference_height_m < 5.0)
-    doubts.push_back({"wind.reference_height_m", fmt::format("{:.4g} m", *wind.reference_height_m),
-                      "5 m or more: 10 m of weather reports, or the hub's height", "look at its unit: m"});
-  if (wind.law == WindLaw::power && (wind.shear_exponent < 0.0 || wind.shear_exponent > 0.6))
-    doubts.push_back({"wind.shear_exponent", fmt::format("{:.4g}", wind.shear_exponent),
-                      "0 to 0.6: .14 at sea, .2 on land (IEC 61400-3, 61400-1)",
-                      "look at its sign and the point; a wind that falls with height is rare"});
-  if (!wind.turbulence || wind.turbulence->model != TurbulenceModel::kaimal) return;
-  const TurbulenceOptions& t = *wind.turbulence;
-  if (t.reference_intensity > 0.3)
-    doubts.push_back({"wind.turbulence.reference_intensity", fmt::format("{:.4g}", t.reference_intensity),
-                      "up to 0.3: .12 to .16 by class (IEC 61400-1)", "it is a share, not per cent"});
-  if (t.sigma_m_s && wind.speed_m_s > 0.0 && *t.sigma_m_s > 0.5 * wind.speed_m_s)
-    doubts.push_back({"wind.turbulence.sigma_m_s",
-                      fmt::format("{:.4g} m/s in a wind of {:.4g} m/s", *t.sigma_m_s, wind.speed_m_s), "up to half the wind",
-                      "it is in m/s, not a share or per cent"});
-}
-
-void doubt_roughness(scene::Doubts& doubts, const WindOptions& wind) {
-  if (constexpr double most = 0.03; wind.law == WindLaw::logarithmic && wind.roughness_m > most)
-    doubts.push_back({"wind.roughness_m", fmt::format("{:.4g} m over water", wind.roughness_m),
-                      fmt::format("up to {:g} m: 0.0001 in calm to 0.01 in storm (DNV-RP-C205, table 2-1)", most),
-                      "look at its unit: m, not mm"});
+/// Blades that are pitched far beyond the wind that meets them, where no model tells their power. `angle`: of the wind to the
+/// rotor's plane at 0.7 of the radius, without induction.
+void doubt_braking(scene::Doubts& doubts, const RotorOptions& rotor, const WindOptions& wind, const RotorAtStart& start) {
+  if (start.power || start.parked || start.radius <= 0.0 || start.speed <= 0.0 || wind.speed_m_s <= 0.0) return;
+  constexpr double most_beyond = 15.0, outer = 0.7;
+  const double angle = std::atan(wind.speed_m_s / (outer * start.speed * start.radius)) / radians_per_degree,
+               pitch = rotor.blade_pitch / radians_per_degree;
+  if (pitch > angle + most_beyond)
+    doubts.push_back({"rotor.blade_pitch_deg",
+                      fmt::format("{:.4g} degrees where the wind meets the blades at {:.3g} degrees", pitch, angle),
+                      fmt::format("up to {:g} degrees more than that", most_beyond),
+                      "the rotor drives the air; look at its unit, and at the rotor's speed and the wind"});
 }
 
 bool is_wing(const GenerateOptions& grid) { return grid.kind == "naca0012" || grid.kind == "aerofoil"; }
@@ -173,9 +159,33 @@ void doubt_reynolds(scene::Doubts& doubts, const ReynoldsReach& reach) {
        "give polars there, or look at their reynolds and at the viscosity"});
 }
 
-/// Towers are about a tenth as thick as the blades are long, thinner under small rotors.
-void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, double radius) {
+/// Towers are about a tenth as thick as the blades are long, thinner under small rotors; they end below the hub or behind it.
+void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, const RotorOptions& rotor, const RotorAtStart& start) {
+  const double radius = start.radius, hub_height = start.hub.z();
   if (!aero.tower || radius <= 0.0) return;
+  constexpr double most_aside = 0.5;
+  const std::array<double, 2>& foot = rotor.tower_foot_m ? *rotor.tower_foot_m : aero.tower->foot_m;
+  if (const double aside = std::hypot(foot[0] - start.hub.x(), foot[1] - start.hub.y()); aside > most_aside * radius)
+    doubts.push_back({rotor.tower_foot_m ? "rotor.tower_foot_m" : "aero.tower.foot_m",
+                      fmt::format("{:.4g} m aside of the hub", aside),
+                      fmt::format("up to {:.4g} m, {:g} of the blades' length", most_aside * radius, most_aside),
+                      "look at its signs and unit, m, and at those of the hub"});
+  const Eigen::Vector3d upwind(foot[0] - start.hub.x(), foot[1] - start.hub.y(), 0.0);
+  if (constexpr double level = 0.02; upwind.dot(rotor.axis) > 0.0 && rotor.axis.normalized().z() > level)
+    doubts.push_back(
+        {rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis",
+         fmt::format("the axis rises downwind, by {:.3g} degrees", std::asin(rotor.axis.normalized().z()) / radians_per_degree),
+         "one that falls: a rotor upwind of its tower is tilted to keep its blades away from it", "turn the sign of z"});
+  constexpr double most_above = 0.2, most_drag = 3.0;  // DNV-RP-C205, table E-1: sections of any shape have up to 2.3
+  if (const double top = aero.tower->stations.back()[0]; top > hub_height + most_above * radius)
+    doubts.push_back({"aero.tower.stations", fmt::format("a top at {:.4g} m where the hub is at {:.4g} m", top, hub_height),
+                      "a top at the hub's height", "look at its unit: m above still water"});
+  for (const auto& [height, diameter, drag] : aero.tower->stations)
+    if (drag > most_drag) {
+      doubts.push_back({"aero.tower.stations", fmt::format("a drag coefficient of {:.4g}", drag),
+                        fmt::format("up to {:g}: cylinders have 0.3 to 1.2", most_drag), "it has no unit; look at the point"});
+      break;
+    }
   constexpr double most = 0.3;
   double thickest = 0.0;
   for (const auto& [height, diameter, drag] : aero.tower->stations) thickest = std::max(thickest, diameter);
@@ -184,11 +194,30 @@ void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, double radius) 
                       fmt::format("up to {:g} of their length", most), "look at its unit: m, not mm"});
 }
 
+/// Open sides of a box: at 2.5 radii from the hub the rotor covers an eighth of a square section.
+void doubt_sides(scene::Doubts& doubts, const AeroOptions& aero, const RotorAtStart& start) {
+  if (!aero.acts() || !aero.flow || !aero.flow->generate || start.radius <= 0.0) return;
+  constexpr double least = 2.5;
+  const GenerateOptions& grid = *aero.flow->generate;
+  for (const PatchOptions& side : aero.flow->boundaries) {
+    const auto axis = side.patch.empty() ? std::string::npos : std::string("xyz").find(side.patch[0]);
+    const bool low = side.patch.ends_with("_min");
+    if (side.condition != Condition::far_field || axis == std::string::npos || !(low || side.patch.ends_with("_max"))) continue;
+    const double hub = start.hub[Eigen::Index(axis)], off = low ? hub - grid.low_m[axis] : grid.high_m[axis] - hub;
+    if (off < least * start.radius)
+      doubts.push_back({low ? "aero.flow.generate.low_m" : "aero.flow.generate.high_m",
+                        fmt::format("{} is {:.4g} m from the hub of blades of {:.4g} m", side.patch, off, start.radius),
+                        fmt::format("{:g} times their length or more; ten are usual", least),
+                        "a near far side holds the flow as a tunnel's walls would; look at its unit: m"});
+  }
+}
+
 /// Of resolved air: by the radius and the faster of tips and wind. Rotors of 0.5 to 150 m have 1e6 to 1e9.
 void doubt_viscosity(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double air_density,
                      const RotorAtStart& start) {
   if (!aero.flow || aero.flow->viscous == "none" || start.radius <= 0.0) return;
-  constexpr double least = 1e5, most = 5e9;
+  constexpr double large = 5.0, most = 5e9;
+  const double least = start.radius > large ? 1e6 : 1e5;
   const double speed = std::max(std::abs(start.speed) * start.radius, wind.speed_m_s);
   const double reynolds = air_density * speed * start.radius / aero.flow->viscosity_Pa_s;
   if (speed > 0.0 && (reynolds < least || reynolds > most))
@@ -196,6 +225,45 @@ void doubt_viscosity(scene::Doubts& doubts, const AeroOptions& aero, const WindO
         {"aero.flow.viscosity_Pa_s",
          fmt::format("{:.4g} Pa s, a Reynolds number of {:.3g} by the rotor's radius", aero.flow->viscosity_Pa_s, reynolds),
          fmt::format("{:g} to {:g}", least, most), "look at its unit: air has 1.8e-5 Pa s"});
+}
+
+/// The wake of a rotor answers within some radii of the wind's way (Oye 1990; Madsen et al. 2020). Sound travels through air at
+/// 295 to 355 m/s from -55 to 40 C; pressurised tunnels have a hundredth of air's viscosity.
+void doubt_air(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double radius) {
+  constexpr double least = 0.02, most = 50.0;
+  if (const double way = aero.inflow_time_s.value_or(0.0) * wind.speed_m_s;
+      way > 0.0 && radius > 0.0 && (way < least * radius || way > most * radius))
+    doubts.push_back({"aero.inflow_time_s", fmt::format("{:.4g} s, in which the wind goes {:.4g} m", *aero.inflow_time_s, way),
+                      fmt::format("{:g} to {:g} times the blades' length", least, most), "look at its unit: s"});
+  if (const double sound = aero.speed_of_sound_m_s; aero.dynamic_stall == "beddoes_leishman" && (sound < 250.0 || sound > 400.0))
+    doubts.push_back({"aero.speed_of_sound_m_s", fmt::format("{:.4g} m/s", sound), "250 to 400 m/s: 340 in air at 15 C",
+                      "look at its unit: m/s, not km/h"});
+  if (const auto& viscosity = aero.kinematic_viscosity_m2_s; viscosity && (*viscosity < 5e-8 || *viscosity > 2e-4))
+    doubts.push_back({"aero.kinematic_viscosity_m2_s", fmt::format("{:.4g} m2/s", *viscosity),
+                      "5e-8 to 2e-4 m2/s: air at 15 C has 1.46e-5", "look at its unit and the power of ten"});
+}
+
+/// Blades clear the water or the ground at z = 0 by 0.2 of their length (IEA 22 MW) to half of it. A rotor in free air, without
+/// either, has its hub at the origin. Where nothing says how long blades are, they are longer than least_radius.
+void doubt_height(scene::Doubts& doubts, const std::string& key, const RotorAtStart& start) {
+  constexpr double clear = 1.05;
+  const double z = start.hub.z(), radius = start.radius > 0.0 ? start.radius : start.least_radius;
+  const char *ground = start.over_water ? "water" : "the ground", *least = start.radius > 0.0 ? "" : "at least ";
+  if (z < clear * radius && (start.over_water || z != 0.0)) {
+    if (z < 0.0)
+      doubts.push_back({key, fmt::format("the hub is {:.4g} m under {}", -z, ground), "a hub higher than its blades are long",
+                        "look at z: up is positive"});
+    else
+      doubts.push_back(
+          {key,
+           fmt::format(
+               "the hub is {:.4g} m above {} with blades of {}{:.4g} m: their tips come {}", z, ground, least, radius,
+               z < radius ? fmt::format("{:.3g} m under it", radius - z) : fmt::format("as near as {:.3g} m", z - radius)),
+           fmt::format("a hub higher than {:g} of their length", clear), "look at z and its unit: m"});
+  }
+  if (constexpr double low = 60.0, blades = 4.0; start.radius > 0.0 && z > std::max(low, blades * start.radius))
+    doubts.push_back({key, fmt::format("the hub is {:.4g} m up with blades of {:.4g} m", z, start.radius),
+                      fmt::format("up to {:g} times their length", blades), "look at its unit: m"});
 }
 
 }  // namespace
@@ -207,22 +275,18 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   const std::string axis_key = rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis";
   doubt_axis(doubts, axis_key, wind, start.axis, blown);
   doubt_speed(doubts, start.speed_key, wind, start, blown);
-  if (aero.model != "prescribed") doubt_wind(doubts, wind);
+  if (aero.model != "prescribed") append(doubts, wind_doubts(wind, start.radius, start.over_water));
   doubt_load(doubts, wind, air_density, start, blown);
   doubt_viscosity(doubts, aero, wind, air_density, start);
-  doubt_tower(doubts, aero, start.radius);
+  doubt_sides(doubts, aero, start);
+  doubt_tower(doubts, aero, rotor, start);
+  doubt_air(doubts, aero, wind, start.radius);
+  if (blown) doubt_braking(doubts, rotor, wind, start);
+  if (constexpr double most = 0.1; std::ranges::any_of(rotor.blade_damping, [](double d) { return d > most; }))
+    doubts.push_back({"rotor.blade_damping", fmt::format("{:.4g} of critical", std::ranges::max(rotor.blade_damping)),
+                      fmt::format("up to {:g}: blades have 0.002 to 0.03", most), "it is a share, not per cent"});
   if (start.reynolds) doubt_reynolds(doubts, *start.reynolds);
-  const std::string hub_key = rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m";
-  if (start.over_water && start.hub.z() < start.radius)
-    doubts.push_back({hub_key,
-                      start.hub.z() < 0.0
-                          ? fmt::format("the hub is {:.4g} m under water", -start.hub.z())
-                          : fmt::format("the hub is {:.4g} m above water with blades of {:.4g} m", start.hub.z(), start.radius),
-                      "a hub higher than its blades are long", "look at z: up is positive"});
-  if (constexpr double least = 60.0, blades = 4.0; start.radius > 0.0 && start.hub.z() > std::max(least, blades * start.radius))
-    doubts.push_back({hub_key, fmt::format("the hub is {:.4g} m up with blades of {:.4g} m", start.hub.z(), start.radius),
-                      fmt::format("up to {:g} times their length", blades), "look at its unit: m"});
-  if (start.over_water) doubt_roughness(doubts, wind);
+  doubt_height(doubts, rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m", start);
   if (const double pitch = rotor.blade_pitch / radians_per_degree; pitch < -15.0 || pitch > 95.0)
     doubts.push_back({"rotor.blade_pitch_deg", fmt::format("{:.4g} degrees", pitch), "-10 to 90 degrees",
                       "look at its unit and sign: positive turns the nose into the wind"});
@@ -232,30 +296,26 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   return doubts;
 }
 
-scene::Doubts control_doubts(const ControlOptions& control) {
-  scene::Doubts doubts;
-  const bool library = control.model == ControlModel::library;
-  for (std::size_t i = 0; i < control.events.size(); ++i)
-    if (control.events[i].what == ControlEvent::emergency_stop &&
-        !((library ? control.drive_train->brake_torque_N_m : read_controller(control.file).brake_torque_N_m) > 0.0))
-      doubts.push_back({fmt::format("control.events[{}]", i), "emergency_stop with a brake of 0 N m",
-                        fmt::format("brake_torque_N_m above 0 in {}", library ? "control.drive_train" : control.file),
-                        "without a brake it is a grid_loss: the blades alone slow the rotor down"});
-  return doubts;
-}
-
 scene::Doubts rotor_body_doubts(const RotorBody& body, const RotorAtStart& start) {
   scene::Doubts doubts;
-  if (start.radius <= 0.0) return doubts;
+  constexpr double usual_share = 0.29;  // radius of gyration of blades with a hub, of turbines of 5 to 15 MW; a disc has .71
+  const double radius = start.radius > 0.0 ? start.radius : body.radius_of_gyration / usual_share;
   const Eigen::Vector3d off = body.centre - start.hub, axis = start.axis.normalized();
   const double along = std::abs(off.dot(axis)), across = (off - off.dot(axis) * axis).norm();
-  if (across > 0.05 * start.radius || along > 0.5 * start.radius)
-    doubts.push_back(
-        {body.key + ".centre_m", fmt::format("{:.4g} m off the rotor's axis, {:.4g} m along it from the hub", across, along),
-         fmt::format("up to {:.3g} and {:.3g} m: a rotor is balanced about its shaft", 0.05 * start.radius, 0.5 * start.radius),
-         "look at the place of the centre of mass and of the bearing"});
-  // Blades with a hub: .29 of the radius for turbines of 5 to 15 MW; a disc has .71, a ring 1.
-  if (const double share = body.radius_of_gyration / start.radius; share < 0.05 || share > 0.8)
+  if (across > 0.05 * radius || along > 0.5 * radius)
+    doubts.push_back({body.key + ".centre_m",
+                      fmt::format("{:.4g} m off the rotor's axis, {:.4g} m along it from the hub", across, along),
+                      fmt::format("up to {:.3g} and {:.3g} m: a rotor is balanced about its shaft", 0.05 * radius, 0.5 * radius),
+                      "look at the place of the centre of mass and of the bearing"});
+  // Masses in a plane have as much about its normal as about two axes in it together.
+  if (constexpr double least = 0.9; body.radius_of_gyration < least * body.across)
+    doubts.push_back({body.key + ".inertia_kg_m2",
+                      fmt::format("a radius of gyration of {:.3g} m about the shaft, of {:.3g} m across it",
+                                  body.radius_of_gyration, body.across),
+                      "the largest about the shaft", "look at the order of the axes: x, y, z, of the earth"});
+  const double longest = std::max(start.radius, start.least_radius);
+  if (longest <= 0.0) return doubts;
+  if (const double share = body.radius_of_gyration / longest; share < 0.05 || (share > 0.8 && start.radius > 0.0))
     doubts.push_back({body.key + ".inertia_kg_m2",
                       fmt::format("a radius of gyration of {:.3g} m about the shaft, {:.2g} of the rotor's radius",
                                   body.radius_of_gyration, share),
@@ -271,6 +331,9 @@ scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, 
   if (flow.temperature_K < 200.0 || flow.temperature_K > 400.0)
     doubts.push_back({"aero.flow.temperature_K", fmt::format("{:.4g} K", flow.temperature_K), "200 to 400 K",
                       "look at its unit: K, not degrees Celsius"});
+  if (const double mach = speed / std::sqrt(1.4 * 287.05 * flow.temperature_K); mach > 1.0)
+    doubts.push_back({"wind.speed_m_s", fmt::format("{:.4g} m/s, a Mach number of {:.3g}", speed, mach),
+                      "below that of sound, which blades do not reach", "look at its unit: m/s, not km/h"});
   const double length = length_of(flow);
   if (length == 0.0) return doubts;
   doubt_closure(doubts, flow, air_density * speed * length / flow.viscosity_Pa_s);

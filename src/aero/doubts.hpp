@@ -16,21 +16,19 @@ struct RotorAtStart {
   double speed = 0.0;                   ///< [rad/s]
   std::string speed_key;                ///< of the scene, that gives it
   double radius = 0.0;                  ///< [m]; 0 where the scene does not say
+  double least_radius = 0.0;            ///< where it does not: by what the rotor weighs and gives [m]
   std::optional<double> thrust, power;  ///< at full load [N], [W]
   bool over_water = false;
   bool parked = false;  ///< by its controller
   std::optional<ReynoldsReach> reynolds{};
 };
 
-struct ControlOptions;
-/// Of the controller's events.
-scene::Doubts control_doubts(const ControlOptions& control);
-
 /// A body that turns with the rotor, against the bearing and the blades that it carries.
 struct RotorBody {
   std::string key;                ///< "bodies.rotor"
   Eigen::Vector3d centre;         ///< of mass, earth frame, as the hub and the axis
   double radius_of_gyration = 0;  ///< about the axis [m]
+  double across = 0;              ///< the largest square to it [m]
 };
 scene::Doubts rotor_body_doubts(const RotorBody& body, const RotorAtStart& start);
 

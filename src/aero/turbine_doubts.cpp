@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/blade_roots.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/scene/angle_doubts.hpp"
 #include "src/scene/columns.hpp"
@@ -82,6 +83,10 @@ void doubt_span(scene::Doubts& doubts, const std::string& at, const Planform& p)
     if (const Span range(*values); range.size() > 0.2 * radius)
       doubts.push_back({at + name, fmt::format("{} on a blade of {:.4g} m", from_to(range, " m"), radius),
                         "up to a fifth of its length", "look at its unit: m"});
+  if (constexpr double most = 0.01; p.prebend.back() > most * radius)
+    doubts.push_back({at + ".prebend_m", fmt::format("the tip {:.4g} m downwind", p.prebend.back()),
+                      fmt::format("up to {:g} of the length: blades are bent upwind, away from the tower", most),
+                      "turn its sign"});
 }
 
 /// Lift rises with the angle of attack: by 2 pi per radian of a thin section, by less of a thick one, which may even lose lift.
@@ -111,6 +116,20 @@ void doubt_polars(scene::Doubts& doubts, const TurbineOptions& options) {
 
 }  // namespace
 
+/// Blades weigh about 0.4948 R^2.53 kg (Fingersh, Hand & Laxson 2006, NREL/TP-500-40566): those of the NREL 5 MW and the DTU 10
+/// MW within 3 %, old and small ones up to three times that.
+scene::Doubts blade_mass_doubts(const std::string& key, const Turbine& turbine, const BladeMasses& masses) {
+  constexpr double factor = 0.4948, power = 2.53, least = 0.1, most = 10.0;
+  double mass = 0.0;
+  for (std::size_t n = 1; n < masses.span.size(); ++n)
+    mass += 0.5 * (masses.mass[n - 1] + masses.mass[n]) * (masses.span[n] - masses.span[n - 1]);
+  const double radius = turbine.planform.span.back(), usual = factor * std::pow(radius, power);
+  if (mass >= least * usual && mass <= most * usual) return {};
+  return {{key, fmt::format("blades of {:.4g} kg and {:.4g} m", mass, radius),
+           fmt::format("{:.3g} to {:.3g} kg for that length", least * usual, most * usual),
+           "look at the unit of mass_kg_m: kg/m"}};
+}
+
 scene::Doubts turbine_doubts(const std::string& path) {
   scene::Doubts doubts;
   const Turbine turbine = read_turbine(path);
@@ -122,6 +141,9 @@ scene::Doubts turbine_doubts(const std::string& path) {
   doubt_thickness(doubts, at, turbine);
   doubt_span(doubts, at, turbine.planform);
   doubt_polars(doubts, options);
+  if (constexpr double most = 15.0; std::abs(options.precone) > most * radians_per_degree)
+    doubts.push_back({"turbine.precone_deg", fmt::format("{:.4g} degrees", options.precone / radians_per_degree),
+                      fmt::format("up to {:g} degrees: turbines have 2 to 5", most), "look at its unit: degrees"});
   if (scene::looks_like_radians(options.precone / radians_per_degree))
     doubts.push_back(scene::doubt_of_angle("turbine.precone_deg", options.precone / radians_per_degree));
   return doubts;

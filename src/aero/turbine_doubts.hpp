@@ -1,6 +1,6 @@
-// Doubts about the blades of a turbine file: units and signs of its planform, its polars and its cone. Called by
-// src/coupling/doubts.cpp; tested by the blunders of
-// tests/extremes/blunders.toml. SPDX-License-Identifier: Apache-2.0
+// Doubts about the blades of a turbine file: units and signs of its planform, its polars and its cone, and masses along them.
+// Called by src/coupling/rotor_doubts.cpp; tested by the blunders of tests/extremes/blunders.toml. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <string>
@@ -9,7 +9,12 @@
 
 namespace spindrift::aero {
 
+struct BladeMasses;
+struct Turbine;
+
 /// Of a turbine file that can be read.
 scene::Doubts turbine_doubts(const std::string& path);
+/// Of masses along the blades of a turbine; `key`: of the scene, that names their file.
+scene::Doubts blade_mass_doubts(const std::string& key, const Turbine& turbine, const BladeMasses& masses);
 
 }  // namespace spindrift::aero

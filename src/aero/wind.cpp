@@ -238,6 +238,10 @@ double starting_speed(const WindOptions& wind) {
   return wind.speed_m_s;
 }
 
+double greatest_speed(const WindOptions& wind) {
+  return wind.table.empty() ? starting_speed(wind) : std::ranges::max(read_wind_table(wind.table).speed);
+}
+
 bool turns(const WindOptions& wind) {
   if (wind.event &&
       (wind.event->what == WindEvent::ecd || wind.event->what == WindEvent::edc || wind.event->direction_change != 0.0))

@@ -55,6 +55,8 @@ Wind wind_of(const WindOptions& wind, const WindSite& site);
 
 /// The speed that the scene's wind begins with, from its files where those say so [m/s].
 double starting_speed(const WindOptions& wind);
+/// Of its table, or that which it begins with: before events and turbulence [m/s].
+double greatest_speed(const WindOptions& wind);
 
 /// Whether its direction changes in time; throws scene::SceneError where its table cannot be read.
 bool turns(const WindOptions& wind);

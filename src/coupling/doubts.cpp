@@ -10,11 +10,11 @@
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/aero/doubts.hpp"
 #include "src/aero/operation.hpp"
-#include "src/aero/turbine_doubts.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/rotor_doubts.hpp"
 #include "src/moorings/bed_file.hpp"
 #include "src/moorings/doubts.hpp"
 #include "src/sea/doubts.hpp"
@@ -262,9 +262,40 @@ void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
     }
 }
 
+/// Units may lean by so much when they are damaged (IMO MODU Code 2009, 3.4.3), under wind by about half of it.
+constexpr double most_heel = 17.0;
+
+/// As floats swing, so do they with springs and dampers of a matrix: see moorings/doubts.cpp for the stiffness.
+void doubt_matrices(scene::Doubts& doubts, const Scenario& s) {
+  constexpr double least_period = 0.3, least_decay = 0.2;
+  for (std::size_t n = 0; n < s.sea.matrices.size(); ++n) {
+    const sea::MatricesOptions& m = s.sea.matrices[n];
+    const auto body = std::ranges::find(s.bodies, m.body, &scene::Named<bodies::BodyOptions>::name);
+    const double size = body == s.bodies.end() ? 0.0 : bodies::extent(body->options);
+    if (size == 0.0) continue;
+    const double swing = std::sqrt(size / std::max(1.0, std::abs(s.environment.gravity_m_s2)));
+    const auto first = [&](const std::vector<std::array<double, 6>>& rows, const char* key, const char* what, double least,
+                           auto time) {
+      for (int i = 0; i < int(rows.size()); ++i) {
+        const double inertia = i < 3 ? body->options.mass_kg : body->options.inertia_kg_m2(i - 3, i - 3);
+        const double value = rows[std::size_t(i)][std::size_t(i)];
+        if (value <= 0.0 || time(inertia / value) >= least * swing) continue;
+        doubts.push_back(
+            {fmt::format("sea.matrices[{}].{}", n, key),
+             fmt::format("{:.4g} in row {} {} body {} in {:.2g} s", value, i + 1, what, m.body, time(inertia / value)),
+             fmt::format("{:.2g} s or more, {:g} of sqrt(size / g)", least * swing, least),
+             "look at the units: N, m, rad and s"});
+        return;
+      }
+    };
+    first(m.stiffness, "stiffness", "swings", least_period, [](double x) { return 2.0 * pi * std::sqrt(x); });
+    first(m.damping, "damping", "stops", least_decay, [](double x) { return x; });
+  }
+}
+
 /// Where the floating system would come to rest, or starts at rest, against where it is described.
 void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
-  if (floating.particle_plan()) return;
+  if (floating.particle_plan() && !start.equilibrium) return;  // its water is not there yet
   const auto found_now = [&] {
     const MeanLoads mean(floating);
     return find_equilibrium(floating.multibody(), start.state, 0.0);
@@ -280,11 +311,11 @@ void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start&
     const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
     const double draft = -bodies::bounds(body).min().z();  // where it is described
     const double most_heave = floating.scenario().has_sea() && draft > 0.0 ? 0.3 * draft : bodies::extent(body);
-    if (turned > 30.0 || std::abs(heave) > most_heave)
+    if (turned > most_heel || std::abs(heave) > most_heave)
       doubts.push_back({"bodies." + all[b].name,
                         fmt::format("rests {:.3g} m {} than described and heeled by {:.3g} degrees", std::abs(heave),
                                     heave > 0.0 ? "higher" : "lower", turned),
-                        fmt::format("up to {:.3g} m, 0.3 of its draft, and 30 degrees", most_heave),
+                        fmt::format("up to {:.3g} m, 0.3 of its draft, and {:g} degrees", most_heave, most_heel),
                         "look at the loads, the weight and its place, and at the shapes' sizes"});
     const double aside = m.displacement.head<2>().norm(),
                  most = std::max(0.5 * floating.scenario().environment.water_depth_m, bodies::extent(body));
@@ -326,6 +357,17 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
+  for (const auto& [key, value] : {std::pair{"waves.crest_time_s", s.waves.crest_height_m ? s.waves.crest_time_s : 0.0},
+                                   std::pair{"sea.wavemaker.start_s", s.sea.wavemaker ? s.sea.wavemaker->start_s : 0.0},
+                                   std::pair{"sea.fields.from_s", s.sea.fields ? s.sea.fields->from_s : 0.0}})
+    if (value > s.time.end_s)
+      doubts.push_back({key, fmt::format("{:.4g} s in a run of {:.4g} s", value, s.time.end_s), "before the end of the run",
+                        "it does not come; look at its unit: s"});
+  if (const auto& box = s.wind.turbulence;
+      box && box->model == aero::TurbulenceModel::kaimal && box->duration_s < 0.1 * s.time.end_s)
+    doubts.push_back({"wind.turbulence.duration_s", fmt::format("{:.4g} s in a run of {:.4g} s", box->duration_s, s.time.end_s),
+                      "a tenth of the run or more; ten minutes are usual",
+                      "the same gusts come again and again; look at its unit: s"});
   for (std::size_t n = 0; n < s.control.events.size(); ++n)
     if (const double at = s.control.events[n].time_s; at > s.time.end_s)
       doubts.push_back({fmt::format("control.events[{}].time_s", n),
@@ -337,92 +379,18 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.output.means_over_s > s.time.end_s)
     doubts.push_back({"output.means_over_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.output.means_over_s, s.time.end_s),
                       "up to the length of the run", "look at its unit: s"});
+  if (s.sea.fields && s.sea.has_particles() && s.sea.fields->interval_s > 0.0) {
+    const double interval = s.sea.fields->interval_s;
+    if (interval > s.time.end_s)
+      doubts.push_back({"sea.fields.interval_s", fmt::format("{:.4g} s in a run of {:.4g} s", interval, s.time.end_s),
+                        "shorter than the run", "only the start is written; look at its unit: s"});
+    else if (interval < 0.99 * s.time.window_s)
+      doubts.push_back({"sea.fields.interval_s", fmt::format("{:.4g} s with windows of {:.4g} s", interval, s.time.window_s),
+                        "a window or more", "fields are written at ends of windows; look at its unit: s"});
+  }
   if (s.sea.settle_s() > 10.0 * s.time.end_s)
     doubts.push_back({"sea.initial.settle_s", fmt::format("{:.4g} s before a run of {:.4g} s", s.sea.settle_s(), s.time.end_s),
                       "up to ten times the run", "look at its unit: s"});
-}
-
-/// Blades in resolved air move by their own length of cells in a window, not by a sector.
-void doubt_turn(scene::Doubts& doubts, const Scenario& s, double speed) {
-  constexpr double most = 12.0;
-  if (!s.resolves_air() || s.aero.flow->time == "steady" || s.aero.model == "actuator_disc") return;
-  if (const double turn = std::abs(speed) * s.time.window_s / radians_per_degree; turn > most)
-    doubts.push_back({"time.window_s", fmt::format("{:.4g} s, in which the rotor turns by {:.3g} degrees", s.time.window_s, turn),
-                      fmt::format("up to {:g} degrees", most), "shorten it: a window is a step of the flow"});
-}
-
-/// A rotor that hardly turns in the run.
-void doubt_run_of_rotor(scene::Doubts& doubts, const Scenario& s, double speed) {
-  constexpr double least = 0.25;
-  if (s.resolves_air() && s.aero.flow->time == "steady") return;
-  if (const double turns = std::abs(speed) * s.time.end_s / (2.0 * pi); turns > 0.0 && turns < least)
-    doubts.push_back({"time.end_s", fmt::format("{:.4g} s, in which the rotor makes {:.2g} of a turn", s.time.end_s, turns),
-                      "a quarter of a turn at least", "look at its unit: s"});
-}
-
-/// The scene's key that gives the rotor its speed at the start.
-std::string speed_key(const Scenario& s) {
-  if (s.rotor.operating_point == "table") return "rotor.operation";
-  if (s.rotor.joint.empty()) return "rotor.speed_rpm";
-  for (const auto& [name, joint] : s.joints)
-    if (name == s.rotor.joint && joint.rotation) return "joints." + name + ".rotation.speed_rpm";
-  return s.is_controlled() && !s.rotor.operation.empty() ? "rotor.operation" : "bodies." + s.rotor.body;
-}
-
-/// Cells over an actuator's rotor.
-void doubt_cells(scene::Doubts& doubts, const Scenario& s, double radius) {
-  if (!s.has_actuator() || !s.aero.flow->generate || s.aero.flow->generate->kind != "stretched_box" || radius <= 0.0) return;
-  if (const double cell = s.aero.flow->generate->cell_m; cell > 0.25 * radius)
-    doubts.push_back({"aero.flow.generate.cell_m", fmt::format("{:.4g} m for blades of {:.4g} m", cell, radius),
-                      "up to a quarter of the radius; a tenth is usual", "the rotor falls between the cells"});
-}
-
-/// The body that turns with the rotor, where a bearing of its own carries it.
-void doubt_rotor_body(scene::Doubts& doubts, const Scenario& s, const aero::RotorAtStart& rotor) {
-  if (s.rotor.joint.empty()) return;
-  const aero::RotorOptions placed = placed_rotor(s).rotor;
-  for (const auto& [name, body] : s.bodies) {
-    if (name != s.rotor.body) continue;
-    const Eigen::Vector3d axis = placed.axis.normalized();
-    aero::RotorAtStart described = rotor;
-    described.hub = placed.hub_m, described.axis = axis;
-    append(doubts, rotor_body_doubts({"bodies." + name, body.centre_m,
-                                      std::sqrt(std::max(0.0, axis.dot(body.inertia_kg_m2 * axis)) / body.mass_kg)},
-                                     described));
-  }
-}
-
-/// One of the rotors, by the scene with it alone.
-void doubt_rotor(scene::Doubts& doubts, const FloatingSystem& floating, const Scenario& s, const RotorSource& of,
-                 const Start& start) {
-  const aero::RotorState now = of.loads.state(0.0, start.state.motions);
-  aero::RotorAtStart rotor{
-      .hub = now.hub, .axis = now.axis, .speed = now.speed, .speed_key = speed_key(s), .over_water = s.has_sea()};
-  rotor.parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
-  rotor.radius = of.radius;
-  if (s.aero.model != "blade_resolved") rotor.reynolds = of.loads.reynolds(0.0, now);
-  if (!s.resolves_air()) {
-    const aero::RotorLoad load = of.loads.load(0.0, now);
-    rotor.thrust = load.thrust;
-    if (s.aero.model == "bem" || load.torque != 0.0) rotor.power = load.power;
-    if (const double carried = weight(floating); carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
-      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
-                        fmt::format("up to half the weight of all bodies, {:.3g} N", carried), "look at its unit: N, not kN"});
-    else if (s.aero.model == "prescribed" && load.thrust < 0.0)
-      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start, against the rotor's axis", load.thrust),
-                        "above zero: the air pushes the rotor downwind", "look at the signs of the thrust and of the axis"});
-    else if (constexpr double least = 1e-4;
-             carried > 0.0 && s.aero.model == "prescribed" && load.thrust != 0.0 && std::abs(load.thrust) < least * carried)
-      doubts.push_back({"aero", fmt::format("a thrust of {:.3g} N at the start", load.thrust),
-                        fmt::format("{:g} of the weight of all bodies, {:.3g} N, at least", least, carried),
-                        "look at its unit: N, not kN"});
-  }
-  append(doubts, rotor_doubts(s.aero, s.rotor, s.wind, s.environment.air_density_kg_m3, rotor));
-  append(doubts, control_doubts(s.control));
-  doubt_rotor_body(doubts, s, rotor);
-  doubt_turn(doubts, s, rotor.speed);
-  doubt_cells(doubts, s, rotor.radius);
-  doubt_run_of_rotor(doubts, s, rotor.speed);
 }
 
 /// Of each rotor, by the scene with it alone: what is said of one stands under its own section, what is said of all of them once.
@@ -520,11 +488,9 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
-  if (s.has_sea()) doubt_damping(all, s), doubt_origin(all, s);
-  std::set<std::string> turbines;
-  for (const Scenario& one : by_rotor(s))
-    if (!one.rotor.turbine.empty() && turbines.insert(one.rotor.turbine).second)
-      append(all, aero::turbine_doubts(one.rotor.turbine));
+  if (s.has_sea()) doubt_damping(all, s), doubt_matrices(all, s), doubt_origin(all, s);
+  std::set<std::string> told;
+  for (const Scenario& one : by_rotor(s)) append(all, rotor_file_doubts(one, told));
   doubt_times(all, floating);
   return all;
 }
@@ -541,7 +507,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   const FullLoads full(floating);
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const RotorSource& rotor) {
-    doubt_rotor(found, floating, s, rotor, start);
+    found = rotor_doubts(s, rotor, start, weight(floating));
   });
   if (start.state.motions.empty()) return all;
   doubt_wakes(all, floating, start);
@@ -570,15 +536,10 @@ std::vector<std::string> resolution_notes(const FloatingSystem& floating) {
 
 scene::Doubts air_doubts(const Scenario& s) {
   scene::Doubts all;
-  if (has_resolved_rotor(s) || s.has_actuator()) {
-    const aero::RotorOptions rotor = placed_rotor(s).rotor;
-    const aero::RotorAtStart start{
-        .hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .speed_key = speed_key(s), .radius = rotor_radius(s)};
-    all = rotor_doubts(s.aero, rotor, s.wind, s.environment.air_density_kg_m3, start);
-    if (!s.rotor.turbine.empty()) append(all, aero::turbine_doubts(s.rotor.turbine));
-    doubt_turn(all, s, rotor.speed);
-    doubt_cells(all, s, start.radius);
-  }
+  if (has_resolved_rotor(s) || s.has_actuator()) all = standing_rotor_doubts(s);
+  if (const auto& motion = s.aero.flow->motion; motion && motion->oscillates() && motion->period_s > 2.0 * s.time.end_s)
+    all.push_back({"aero.flow.motion.period_s", fmt::format("{:.4g} s in a run of {:.4g} s", motion->period_s, s.time.end_s),
+                   "up to twice the run", "look at its unit: s"});
   for (const scene::Doubt& doubt : flow_doubts(*s.aero.flow, s.wind.speed_m_s, s.time.window_s, s.environment.air_density_kg_m3))
     if (std::ranges::find(all, doubt.key, &scene::Doubt::key) == all.end()) all.push_back(doubt);
   return all;

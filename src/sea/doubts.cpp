@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
@@ -73,6 +74,16 @@ void doubt_coefficients(scene::Doubts& doubts, const SeaOptions& sea) {
     if (value > bound)
       doubts.push_back({key, fmt::format("{:.4g}", value), fmt::format("up to {:.4g} (DNV-RP-C205)", bound),
                         "coefficients have no unit; look at the point"});
+  for (std::size_t n = 0; n < sea.coefficients.size(); ++n) {
+    const CoefficientsOptions& c = sea.coefficients[n];
+    for (const auto& [key, value, bound] : {std::tuple{"drag_coefficient", c.drag_coefficient, 3.0},
+                                            std::tuple{"added_mass_coefficient", c.added_mass_coefficient, 3.0},
+                                            std::tuple{"axial_drag_coefficient", c.axial_drag_coefficient, 12.0},
+                                            std::tuple{"axial_added_mass_coefficient", c.axial_added_mass_coefficient, 12.0}})
+      if (value && *value > bound)
+        doubts.push_back({fmt::format("sea.coefficients[{}].{}", n, key), fmt::format("{:.4g} of {}", *value, c.cylinder),
+                          fmt::format("up to {:.4g} (DNV-RP-C205)", bound), "coefficients have no unit; look at the point"});
+  }
 }
 
 }  // namespace
@@ -94,10 +105,28 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
     doubts.push_back({"sea.tank.x_m", fmt::format("{:.4g} m long with waves {:.4g} m long", along, length), "half a wave or more",
                       "look at the period and at the unit of the tank: m"});
   const double longest = std::max(along, sea.tank->y_m[1] - sea.tank->y_m[0]);
+  if (sea.tank->top_m > longest)
+    doubts.push_back({"sea.tank.top_m", fmt::format("{:.4g} m for a tank {:.4g} m long", sea.tank->top_m, longest),
+                      "walls lower than the tank is long", "look at its unit: m above still water"});
+  if (const double waves_in = wavy ? along / length : 0.0;
+      wavy && sea.tank->sides_x == "periodic" && std::abs(waves_in - std::round(waves_in)) > 0.1)
+    doubts.push_back({"sea.tank.x_m",
+                      fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m", along, waves_in, length),
+                      "a whole number of waves", "where the sides meet the waves have a step"});
   if (constexpr double most = 3.0; e.water_depth > most * longest)
     doubts.push_back({"environment.water_depth_m", fmt::format("{:.4g} m in a tank {:.4g} m long", e.water_depth, longest),
                       fmt::format("up to {:g} times its length", most),
                       "look at the units of both: m; the cost goes with the depth"});
+  if (constexpr double most = 1.5; wavy && e.water_depth > most * length && e.water_depth > 3.0 * bodies.draft)
+    doubts.push_back({"environment.water_depth_m", fmt::format("{:.4g} m under waves {:.4g} m long", e.water_depth, length),
+                      fmt::format("up to {:g} wave lengths: from a half on the water at the bed rests", most),
+                      "look at the units of both: m; the cost goes with the depth"});
+  double free = along;
+  for (const DampingZoneOptions& zone : sea.damping_zones)
+    if (zone.axis != "y") free -= std::abs(zone.to_m - zone.from_m);
+  if (wavy && !sea.damping_zones.empty() && free < 0.5 * length)
+    doubts.push_back({"sea.damping_zones", fmt::format("leave {:.4g} m of the tank for waves {:.4g} m long", free, length),
+                      "half a wave or more", "look at from_m and to_m"});
   for (std::size_t n = 0; n < sea.damping_zones.size(); ++n) {
     const DampingZoneOptions& zone = sea.damping_zones[n];
     const std::string at = fmt::format("sea.damping_zones[{}]", n);
@@ -105,8 +134,22 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
       doubts.push_back({at + ".rate_1_s",
                         fmt::format("{:.4g} 1/s, {:.3g} of the waves' angular frequency", zone.rate_1_s, zone.rate_1_s / omega),
                         "0.2 to 30 times it", "a weak zone lets waves through, a hard one throws them back"});
+    if (const double wide = std::abs(zone.to_m - zone.from_m); wavy && zone.axis != "y" && wide < 0.25 * length)
+      doubts.push_back({at + ".to_m", fmt::format("a zone of {:.4g} m under waves {:.4g} m long", wide, length),
+                        "a quarter of a wave or more; a whole one is usual", "waves come back from the wall behind it"});
     const int axis = zone.axis == "y" ? 1 : 0;
     const auto [low, high] = std::minmax(zone.from_m, zone.to_m);
+    const std::array<double, 2>& sides = axis == 1 ? sea.tank->y_m : sea.tank->x_m;
+    const double middle = 0.5 * (sides[0] + sides[1]);
+    if (low >= sides[1] || high <= sides[0])
+      doubts.push_back({at + ".from_m", fmt::format("a zone from {:.4g} to {:.4g} m along {}", zone.from_m, zone.to_m, zone.axis),
+                        fmt::format("within the tank, {:.4g} to {:.4g} m", sides[0], sides[1]),
+                        "there is no water; look at its unit: m"});
+    else if (std::abs(zone.to_m - middle) < std::abs(zone.from_m - middle))
+      doubts.push_back(
+          {at + ".to_m",
+           fmt::format("damping that grows inwards, from {:.4g} to {:.4g} m along {}", zone.from_m, zone.to_m, zone.axis),
+           "damping that grows towards the tank's end", "exchange from_m and to_m: waves meet its full strength at once"});
     for (const auto& [name, box] : bodies.boxes)
       if (box.max()[axis] > low && box.min()[axis] < high)
         doubts.push_back(
@@ -114,6 +157,35 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
              fmt::format("a zone from {:.4g} to {:.4g} m along {}, where body {} is", zone.from_m, zone.to_m, zone.axis, name),
              "zones beside the bodies", "the water round it is brought to rest"});
   }
+}
+
+/// Bodies and the wavemaker in the tank. A piston's stroke is half the height of its wave in deep water, and in shallow water the
+/// height over 2 pi depths by the length (Dean & Dalrymple 1991, ch. 6).
+void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions& waves, const BodiesInSea& bodies) {
+  if (!sea.tank) return;
+  for (const auto& [name, box] : bodies.boxes)
+    for (const auto& [axis, sides] : {std::pair{0, sea.tank->x_m}, std::pair{1, sea.tank->y_m}})
+      if (const double at = box.center()[axis]; (axis == 0 || !sea.particles->planar()) && (at < sides[0] || at > sides[1])) {
+        doubts.push_back({"bodies." + name, fmt::format("its middle is at {} = {:.4g} m", axis == 0 ? "x" : "y", at),
+                          fmt::format("within the tank, {:.4g} to {:.4g} m", sides[0], sides[1]),
+                          "look at the units of its shapes and of sea.tank: m"});
+        break;
+      }
+  constexpr double spacings = 2.0;
+  for (const auto& [name, box] : bodies.boxes)
+    for (const auto& [axis, sides, kind] :
+         {std::tuple{0, sea.tank->x_m, &sea.tank->sides_x}, std::tuple{1, sea.tank->y_m, &sea.tank->sides_y}}) {
+      const double gap = std::min(box.min()[axis] - sides[0], sides[1] - box.max()[axis]), spacing = sea.particles->spacing_m;
+      if (sea.particles->planar() || *kind != "wall" || box.min().z() > 0.0 || gap < 0.0 || gap >= spacings * spacing) continue;
+      doubts.push_back({"bodies." + name,
+                        fmt::format("{:.3g} m from the tank's wall, {:.2g} spacings of the particles", gap, gap / spacing),
+                        fmt::format("{:g} spacings at least", spacings), "take a wider tank: no particle fits between them"});
+    }
+  if (!sea.wavemaker || !sea.wavemaker->stroke_m || waves.height_m <= 0.0) return;
+  constexpr double least = 0.05, most = 20.0;
+  if (const double stroke = *sea.wavemaker->stroke_m; stroke < least * waves.height_m || stroke > most * waves.height_m)
+    doubts.push_back({"sea.wavemaker.stroke_m", fmt::format("{:.4g} m for waves {:.4g} m high", stroke, waves.height_m),
+                      fmt::format("{:g} to {:g} times the height", least, most), "look at its unit: m, from end to end"});
 }
 
 /// Numbers of the particles that decide cost or damping.
@@ -151,6 +223,10 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   if (const double up = std::abs(sea.current_m_s.z()); up > 0.1 * std::max(1.0, sea.current_m_s.norm()))
     doubts.push_back({"sea.current_m_s", fmt::format("{:.4g} m/s upwards", sea.current_m_s.z()), "level: z is up",
                       "look at the order: x, y, z"});
+  if (const auto& profile = sea.current_profile;
+      !profile.empty() && std::ranges::all_of(profile, [](const auto& row) { return row[0] > 0.0; }))
+    doubts.push_back({"sea.current_profile", fmt::format("rows from z = {:.4g} m on", profile.front()[0]),
+                      "rows under water, z below zero", "look at their sign: up is positive, depths are negative"});
   const bool wavy = waves.model != "none" && waves.period_s > 0.0;
   if (sea.model == "morison" && sea.strip_length_m < 0.01 * bodies.draft)
     doubts.push_back({"sea.strip_length_m", fmt::format("{:.4g} m along a draft of {:.4g} m", sea.strip_length_m, bodies.draft),
@@ -163,6 +239,11 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
   doubt_tank(doubts, sea, waves, e, bodies);
+  doubt_in_tank(doubts, sea, waves, bodies);
+  if (const double rate = sea.initial ? sea.initial->settle_damping_1_s : 0.0, swing = std::sqrt(e.gravity / e.water_depth);
+      rate > 30.0 * swing)
+    doubts.push_back({"sea.initial.settle_damping_1_s", fmt::format("{:.4g} 1/s, {:.3g} of sqrt(g / depth)", rate, rate / swing),
+                      "up to 30 times that", "it holds the water fast, which then cannot settle; look at its unit: 1/s"});
   doubt_schemes(doubts, *sea.particles, e, bodies);
   const double spacing = sea.particles->spacing_m;
   if (wavy && waves.height_m > 0.0 && waves.height_m < 0.5 * spacing)

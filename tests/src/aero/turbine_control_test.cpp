@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "src/aero/doubts.hpp"
+#include "src/aero/control_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "tests/order.hpp"
 
