@@ -108,13 +108,13 @@ void doubt_unlike(scene::Doubts& doubts, const std::vector<scene::Named<LineOpti
   constexpr double most = 100.0;
   for (const auto& [name, line] : lines) {
     if (!is_spring(line)) continue;
-    std::vector<double> others;
+    std::vector<double> alike;
     for (const auto& [other_name, other] : lines)
-      if (is_spring(other) && other_name != name && other.body == line.body && other.anchor_body == line.anchor_body)
-        others.push_back(other.series_stiffness_N_m() * other.length_m());
-    if (others.size() < 2) continue;
-    std::ranges::nth_element(others, others.begin() + std::ptrdiff_t(others.size() / 2));
-    const double median = others[others.size() / 2], own = line.series_stiffness_N_m() * line.length_m();
+      if (is_spring(other) && other.body == line.body && other.anchor_body == line.anchor_body)
+        alike.push_back(other.series_stiffness_N_m() * other.length_m());
+    if (alike.size() < 3) continue;
+    std::ranges::sort(alike);
+    const double median = alike[alike.size() / 2], own = line.series_stiffness_N_m() * line.length_m();
     if (own > most * median || own < median / most)
       doubts.push_back({"moorings." + name + stiffness_key(line),
                         fmt::format("an axial stiffness of {:.3g} N beside lines of {:.3g} N", own, median),

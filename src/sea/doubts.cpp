@@ -159,18 +159,10 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   }
 }
 
-/// Bodies and the wavemaker in the tank. A piston's stroke is half the height of its wave in deep water, and in shallow water the
-/// height over 2 pi depths by the length (Dean & Dalrymple 1991, ch. 6).
+/// Bodies beside the tank's walls, and the wavemaker. A piston's stroke is half the height of its wave in deep water, and in
+/// shallow water the height over 2 pi depths by the length (Dean & Dalrymple 1991, ch. 6).
 void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions& waves, const BodiesInSea& bodies) {
   if (!sea.tank) return;
-  for (const auto& [name, box] : bodies.boxes)
-    for (const auto& [axis, sides] : {std::pair{0, sea.tank->x_m}, std::pair{1, sea.tank->y_m}})
-      if (const double at = box.center()[axis]; (axis == 0 || !sea.particles->planar()) && (at < sides[0] || at > sides[1])) {
-        doubts.push_back({"bodies." + name, fmt::format("its middle is at {} = {:.4g} m", axis == 0 ? "x" : "y", at),
-                          fmt::format("within the tank, {:.4g} to {:.4g} m", sides[0], sides[1]),
-                          "look at the units of its shapes and of sea.tank: m"});
-        break;
-      }
   constexpr double spacings = 2.0;
   for (const auto& [name, box] : bodies.boxes)
     for (const auto& [axis, sides, kind] :

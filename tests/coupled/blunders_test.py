@@ -17,7 +17,9 @@ SCENES = {"case1": "leble_barakos/case1_engineering.toml", "case2": "leble_barak
           "naca": "validation/naca0012/family.toml", "re100": "validation/cylinder_re100/cylinder.toml", "section": "tutorials/wing_section.toml",
           "pitching": "validation/pitching_naca0012/pitching.toml", "rotor_demo": "leble_barakos/rotor_demo.toml", "disc": "validation/actuator/disc.toml",
           "linescene": "validation/actuator/line.toml", "tower": "validation/dtu_tower/dtu_tower.toml", "bridles": "tutorials/spar_on_bridles.toml",
-          "standing": "validation/standing_wave/standing_wave.toml", "sections": "../tests/extremes/sections.toml", "potential": "../tests/extremes/potential.toml"}
+          "standing": "validation/standing_wave/standing_wave.toml", "sections": "../tests/extremes/sections.toml", "potential": "../tests/extremes/potential.toml", "line": "../tests/extremes/line.toml",
+          "twin": "control/twin_rotor_floater.toml", "paper": "leble_barakos/case1_paper.toml", "blades": "leble_barakos/flexible_blades.toml",
+          "nrel": "validation/actuator/nrel_5mw_line.toml"}
 BLUNDERS = tomllib.loads((ROOT / "tests/extremes/blunders.toml").read_text(encoding="utf-8"))["blunder"]
 
 
@@ -30,23 +32,40 @@ def named(said, what):
 TURBINES = ROOT / "inputs/turbines"
 
 
-def turbine_copy(folder, blunder):
-    """The DTU turbine with the slips that the table names; its path."""
-    rows = [line for line in (TURBINES / "dtu_10mw/planform.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+FILES = {"planform": "dtu_10mw/planform.csv", "operation": "dtu_10mw_operation.csv", "turbine": "dtu_10mw.toml", "controller": "dtu_10mw_controller.toml"}
+
+
+def table_copy(path, copy, slip):
+    """A table with what the slip says: a column by a factor, or cut after so many rows."""
+    rows = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     table = list(csv.reader(rows))
-    if slip := blunder.get("planform"):
+    if "times" in slip:
         column = table[0].index(slip["column"])
         for row in table[1:]:
             row[column] = repr(slip["times"] * float(row[column]))
-    (folder / "planform.csv").write_text("\n".join(map(",".join, table)) + "\n")
-    text = (TURBINES / "dtu_10mw.toml").read_text(encoding="utf-8")
-    for old, new in blunder.get("turbine", {}).items():
+    copy.write_text("\n".join(map(",".join, table[:slip.get("rows", len(table)) + 1])) + "\n")
+
+
+def text_copy(path, slip):
+    """A text with other lines."""
+    text = path.read_text(encoding="utf-8")
+    for old, new in slip.items():
         assert old in text, old
         text = text.replace(old, new)
+    return text
+
+
+def turbine_copy(folder, blunder):
+    """The DTU turbine with the slips that the table names; its path."""
+    for name in ("planform", "operation"):
+        table_copy(TURBINES / FILES[name], folder / f"{name}.csv", blunder.get(name, {}))
+    (folder / "controller.toml").write_text(text_copy(TURBINES / FILES["controller"], blunder.get("controller", {})))
+    text = text_copy(TURBINES / FILES["turbine"], blunder.get("turbine", {}))
     if blunder["scene"] != "rotor_demo":   # outlines are for resolved blades, and have rules of their own for thickness
         text = re.sub(r"aerofoils = \[.*?\n\]\n", "", text, flags=re.DOTALL)
-    text = text.replace('"dtu_10mw/planform.csv"', '"planform.csv"').replace('"dtu_10mw', f'"{TURBINES}/dtu_10mw')
-    (folder / "turbine.toml").write_text(text)
+    for name, copy in (("planform", "planform.csv"), ("operation", "operation.csv"), ("controller", "controller.toml")):
+        text = text.replace(f'"{FILES[name]}"', f'"{copy}"')
+    (folder / "turbine.toml").write_text(text.replace('"dtu_10mw', f'"{TURBINES}/dtu_10mw'))
     return folder / "turbine.toml"
 
 
@@ -59,8 +78,8 @@ class Blunders(unittest.TestCase):
     def test_each_is_named(self):
         for blunder in (b for b in BLUNDERS if b.get("nightly", False) == self.nightly):
             with self.subTest(blunder["what"]), tempfile.TemporaryDirectory() as folder:
-                settings = list(blunder.get("set", []))
-                if "planform" in blunder or "turbine" in blunder:
+                settings = [text.replace("@files", str(ROOT / "tests/extremes/files")) for text in blunder.get("set", [])]
+                if FILES.keys() & blunder.keys():
                     settings.append(f'rotor.turbine="{turbine_copy(pathlib.Path(folder), blunder)}"')
                 said = spindrift("check", ROOT / "inputs" / SCENES[blunder["scene"]], settings=settings)
                 self.assertIn(said.returncode, (0, 2), said.stderr)

@@ -238,3 +238,23 @@ TEST_CASE("too few segments, and a step too long for a light body, are doubted",
   line.segments = 3;  // 137 m each where the chain is bent to 251 m
   CHECK(keys(8e6) == "moorings.line_1.segments ");
 }
+
+TEST_CASE("springs out by a thousand are doubted, tendons and soft lines of a model are not", "[moorings][fast]") {
+  LineSurroundings around{20.6, 4.37e7};
+  around.masses_kg["platform"] = 4.45e6;
+  around.shapes["platform"] = {Eigen::Vector3d(-29, -46, -14), Eigen::Vector3d(52, 46, 12)};
+  const auto keys = [&](double depth_m, double stiffness_N) {
+    LineOptions line;
+    line.body = "platform", line.rest_length_m = 116.73, line.axial_stiffness_N = stiffness_N;
+    line.fairlead_m = {46.7, 0, -7}, line.anchor_m = {162.63504, 0, -20.6};
+    std::string all;
+    around.depth_m = depth_m;
+    for (const scene::Doubt& doubt : line_doubts({{"a", line}}, around)) all += doubt.key + " ";
+    return all;
+  };
+  for (const double stiffness : {2e6, 4e8, 4e9}) CHECK(keys(20.6, stiffness).empty());  // a tendon of 100 m has 2e9 N
+  for (const double stiffness : {4e5, 4e11}) CHECK(keys(20.6, stiffness) == "moorings.a.axial_stiffness_N ");
+  for (const double depth : {206.0, 2060.0}) CHECK(keys(depth, 4e8) == "moorings.a.anchor_m ");
+  around.shapes.clear();  // nothing that floats
+  CHECK(keys(20.6, 4e11).empty());
+}
