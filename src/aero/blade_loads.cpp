@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/blade_loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "kernels/base/failure.hpp"
 
 namespace spindrift::aero {
 
@@ -53,6 +57,7 @@ FlexibleBlades::Bending BladeLoads::settled(const BladesAt& at, std::span<const 
   const std::size_t modes = used(air).size();
   constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
   constexpr double enough = 1e-12;
+  double left = 0.0;
   for (int pass = 0; pass < most; ++pass) {
     const FlexibleBlades::Bending before = bending;
     const BentBlades bent = flexible_->bent(before);
@@ -63,8 +68,16 @@ FlexibleBlades::Bending BladeLoads::settled(const BladesAt& at, std::span<const 
     for (std::size_t k = 0; k < modes; ++k)
       change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
       size = std::max(size, std::abs(bending.amplitudes[k]));
-    if (change <= enough * size) break;
+    if (change <= enough * size) return bending;
+    left = change / size;
   }
+  constexpr double close = 1e-6;
+  if (!(left <= close))
+    throw NumericalFailure(
+        fmt::format("t = {:.4g} s: blades find no rest under the air: after {} passes their bending changes by "
+                    "{:.2g} of itself; look at their stiffness, at the wind and at the rotor's speed",
+                    at.t, most, left),
+        "rotor", 0, at.t, left);
   return bending;
 }
 

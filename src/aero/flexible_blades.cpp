@@ -101,6 +101,17 @@ Eigen::Vector2d FlexibleBlades::tip(const DiscMotion& rotor, int blade, const Be
   return {c * d.x() - s * d.y(), s * d.x() + c * d.y()};
 }
 
+double FlexibleBlades::sag(double gravity) const {
+  Eigen::Matrix<double, 2, modes> weight = Eigen::Matrix<double, 2, modes>::Zero();
+  for (const beam::BladePoint& p : points_) weight += p.mass * gravity * p.value;
+  double most = 0.0;
+  for (int direction = 0; direction < 2; ++direction) {
+    const Modal amplitude = weight.row(direction).transpose().cwiseQuotient(squared());
+    most = std::max(most, (modes_.value(modes_.length()) * amplitude).norm());
+  }
+  return most;
+}
+
 FlexibleBlades::Modal FlexibleBlades::inertial_force(const BladeAxes& axes, const HubField& hub, const Modal& amplitude,
                                                      const Modal& rate) const {
   Modal force = Modal::Zero();

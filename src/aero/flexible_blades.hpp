@@ -55,6 +55,8 @@ class FlexibleBlades {
   double mass() const { return mass_; }                                      ///< of one blade [kg]
   const std::array<double, modes>& omega() const { return modes_.omega(); }  ///< at rest [rad/s]
   std::array<double, modes> omega_turning(double speed) const;               ///< of a held hub, without weight [rad/s]
+  /// How far the tip of a level blade sinks under its own weight, flapwise or edgewise, whichever is more [m].
+  double sag(double gravity_m_s2) const;
   /// For the elements of the rotor; valid while both live.
   BentBlades bent(const Bending& bending) const;
   BladeAxes axes(const DiscMotion& rotor, int blade) const;

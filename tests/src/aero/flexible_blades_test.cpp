@@ -68,6 +68,7 @@ TEST_CASE("a level blade hangs by its weight as a cantilever does", "[aero][fast
   const DiscMotion feathered = standing(-0.5 * pi, 0.5 * pi);
   blades.settle(feathered, {Vector3d::Zero(), Vector3d::Zero(), weight}, std::vector(3, 0.0), bending);
   CHECK(blades.tip(feathered, 0, bending).y() == Approx(-exact * edge / flap).epsilon(.02));
+  CHECK(blades.sag(9.81) == Approx(exact * edge / flap).epsilon(.02));  // the softer way
 }
 
 TEST_CASE("a rotor that falls freely does not bend and does not hold its hub", "[aero][fast]") {
