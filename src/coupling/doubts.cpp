@@ -262,7 +262,7 @@ void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
     }
 }
 
-/// Units may lean by so much when they are damaged (IMO MODU Code 2009, 3.4.3), under wind by about half of it.
+/// Column-stabilised units may lean by so much when they are damaged (IMO MODU Code 2009, section 3.4).
 constexpr double most_heel = 17.0;
 
 /// As floats swing, so do they with springs and dampers of a matrix: see moorings/doubts.cpp for the stiffness.
