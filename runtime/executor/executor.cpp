@@ -21,7 +21,7 @@ struct Executor::State {
     if (Ledger* ledger = Ledger::current()) ledger->closed(team);
   }
   Team team;
-  std::unique_ptr<Watchdog> watchdog;
+  std::unique_ptr<Watchdog> own_watchdog;  ///< where the process has none
   std::uint64_t runs = 0;
 };
 
@@ -81,8 +81,12 @@ void Executor::run(std::uint32_t n) {
   Ledger* const ledger = Ledger::current();
   team.recording = team.options.records > 0 && (!ledger || ledger->keeps_records());
   if (ledger) ledger->starts(team);
-  if (team.options.watchdog_s > 0 && !state_->watchdog) state_->watchdog = std::make_unique<Watchdog>(team);
-  if (state_->watchdog) state_->watchdog->run_starts();
+  Watchdog* watchdog = Watchdog::current();
+  if (std::unique_ptr<Watchdog>& own = state_->own_watchdog; !watchdog && team.options.watchdog_s > 0) {
+    if (!own) own = std::make_unique<Watchdog>(Watchdog::Of::executor, team.options.watchdog_s, team.options.watchdog_file);
+    watchdog = own.get();
+  }
+  if (watchdog) watchdog->run_starts(team);
   team.ended.store(false, std::memory_order_relaxed);
   const std::int64_t begin_ns = Clock::now_ns();
 #pragma omp parallel num_threads(team.options.threads)
@@ -93,7 +97,7 @@ void Executor::run(std::uint32_t n) {
     worker.work();
   }
   if (ledger) ledger->ran(team, begin_ns, Clock::now_ns() - begin_ns);
-  if (state_->watchdog) state_->watchdog->run_ends();
+  if (watchdog) watchdog->run_ends(team);
   if (!team.failure) return;
   const bool ours = team.failure->rank == team.graph.recorded().comm.rank();
   team.messages.abandon(ours ? &*team.failure : nullptr);

@@ -21,7 +21,9 @@ struct ExecutorOptions {
   std::size_t records = 0;     ///< per thread, kept for the trace; 0: none
   bool priorities = true;      ///< longest measured cost-to-go first; without: first come first served
   bool flush_to_zero = false;  ///< denormal numbers as zero inside tasks (changes bits)
-  double watchdog_s = 600;     ///< nothing completes for so long: dump the graph, and end the run if no task is inside its work
+  /// Nothing completes for so long: dump the graph, and end the run if no task is inside its work. Where the process has a
+  /// watchdog, that one's time counts.
+  double watchdog_s = 600;
   std::FILE* watchdog_file = stderr;
   std::optional<std::uint64_t> random_schedule = {};  ///< tests: run ready tasks in an order drawn from this seed
 };

@@ -22,7 +22,9 @@ namespace spindrift::runtime {
 namespace {
 
 constexpr double most_patience_s = 60;  ///< for a run to end in order that has lost a rank
+constexpr double least_reply_s = 2;     ///< for a living rank on a busy computer
 std::atomic<int> graphs_at_work = 0;    ///< of this process
+std::atomic<Watchdog*> of_process = nullptr;
 
 std::uint64_t beats(const Team& team) {
   std::uint64_t sum = 0;
@@ -85,9 +87,13 @@ SPINDRIFT_LOOKS_ON std::string dump(const Team& team, int lines) {
   return text;
 }
 
-Watchdog::Watchdog(Team& team) : team_(team), thread_([this] { watch(); }) {}
+Watchdog::Watchdog(Of of, double limit_s, std::FILE* file) : of_(of), file_(file), limit_s_(limit_s) {
+  if (of == Of::process) of_process = this;
+  thread_ = std::thread([this] { watch(); });
+}
 
 Watchdog::~Watchdog() {
+  if (of_ == Of::process) of_process = nullptr;
   {
     const std::lock_guard lock(lock_);
     leaving_ = true;
@@ -96,59 +102,104 @@ Watchdog::~Watchdog() {
   thread_.join();
 }
 
-void Watchdog::run_starts() {
-  const std::lock_guard lock(lock_);
-  running_ = true;
-  ++graphs_at_work;
+Watchdog* Watchdog::current() {
+  Watchdog* const one = of_process;
+  if (!one) return nullptr;
+  const std::lock_guard lock(one->lock_);
+  return one->limit_s_ > 0 ? one : nullptr;
 }
 
-void Watchdog::run_ends() {
+void Watchdog::set_limit(double limit_s) {
+  Watchdog* const one = of_process;
+  if (!one) return;
+  {
+    const std::lock_guard lock(one->lock_);
+    one->limit_s_ = limit_s;
+    ++one->changes_;
+  }
+  one->changed_.notify_one();
+}
+
+void Watchdog::run_starts(Team& team) {
   const std::lock_guard lock(lock_);
-  running_ = false;
-  --graphs_at_work;
+  at_work_.push_back(&team);
+  ++changes_, ++graphs_at_work;
+}
+
+void Watchdog::run_ends(Team& team) {
+  const std::lock_guard lock(lock_);
+  std::erase(at_work_, &team);
+  ++changes_, --graphs_at_work;
+}
+
+/// Changes wherever something completes.
+std::uint64_t Watchdog::progress() const {
+  std::uint64_t sum = changes_;
+  for (const Team* team : at_work_) sum += beats(*team);
+  return sum;
 }
 
 void Watchdog::watch() {
   using std::chrono::duration, std::chrono::steady_clock;
-  const double limit = team_.options.watchdog_s;
   std::unique_lock lock(lock_);
   std::uint64_t seen = 0;
   auto since = steady_clock::now();
-  Heartbeat* const heartbeat = Heartbeat::current();
-  bool asking = false, was_running = false;
   while (!leaving_) {
-    changed_.wait_for(lock, duration<double>(std::min(1.0, limit / 8)));
-    const std::uint64_t now = beats(team_);
-    // Between two graphs nothing completes: only a rank that does not answer ends that.
-    const bool idle = !running_ && (!heartbeat || graphs_at_work > 0);
-    if (idle || now != seen || running_ != was_running) {
-      seen = now, was_running = running_;
-      since = steady_clock::now();
-      asking = false;
+    if (limit_s_ <= 0) {
+      changed_.wait(lock);
       continue;
     }
-    const double quiet = duration<double>(steady_clock::now() - since).count();
-    if (heartbeat && quiet > limit / 2) {
-      if (!asking) heartbeat->forget();
-      asking = true;
-      heartbeat->ask();
+    changed_.wait_for(lock, duration<double>(std::min(1.0, limit_s_ / 8)));
+    const std::uint64_t now = progress();
+    const bool others_work = of_ == Of::executor && at_work_.empty() && graphs_at_work > 0;
+    if (now != seen || others_work) {
+      seen = now, since = steady_clock::now();
+      said_s_ = 0.0, named_.clear();
+      continue;
     }
-    if (quiet < limit) continue;
-    since = steady_clock::now();
-    const std::string silent = heartbeat ? heartbeat->silent() : std::string();
-    if (running_ || !silent.empty()) ends_or_says(quiet, silent);
+    const double quiet_s = duration<double>(steady_clock::now() - since).count();
+    ask_others(quiet_s);
+    look_at_graphs(quiet_s);
   }
 }
 
-void Watchdog::ends_or_says(double quiet, const std::string& silent) {
-  const int rank = team_.graph.recorded().comm.rank();
-  const std::string what = "nothing completed for " + std::to_string(int(quiet)) + " s on rank " + std::to_string(rank) +
-                           (silent.empty() ? "" : "; " + silent) + (running_ ? ":\n" + dump(team_) : ", between two graphs\n");
-  std::fputs(("watchdog: " + what).c_str(), team_.options.watchdog_file);
-  std::fflush(team_.options.watchdog_file);
-  // A thread inside MPI may never come back from a call that a silent rank has part in: in order first, then by force.
-  if (!silent.empty()) Heartbeat::current()->end_within(std::min(team_.options.watchdog_s, most_patience_s));
-  if (running_ && (!silent.empty() || !inside_a_task(team_))) team_.fail({rank, true, "", what});
+/// A rank that stands still is named within the limit of then: in half of it after the next question, of which the first comes
+/// after a quarter, and others as long as nothing completes.
+void Watchdog::ask_others(double quiet_s) {
+  Heartbeat* const heartbeat = Heartbeat::current();
+  if (!heartbeat || quiet_s < limit_s_ / 4) return;
+  heartbeat->ask(std::max(limit_s_ / 2, least_reply_s));
+  if (const std::string silent = heartbeat->silent(); !silent.empty() && silent != named_) {
+    named_ = silent;
+    end_without(silent, quiet_s);
+  }
+}
+
+/// A thread inside MPI may never come back from a call that a silent rank has part in: in order first, then by force.
+void Watchdog::end_without(const std::string& silent, double quiet_s) {
+  const std::string what = report(quiet_s, silent);
+  Heartbeat::current()->end_within(std::min(limit_s_, most_patience_s));
+  for (Team* team : at_work_) team->fail({team->graph.recorded().comm.rank(), true, "", what});
+}
+
+void Watchdog::look_at_graphs(double quiet_s) {
+  if (at_work_.empty() || quiet_s - said_s_ < limit_s_) return;
+  said_s_ = quiet_s;
+  const std::string what = report(quiet_s, "");
+  for (Team* team : at_work_)
+    if (!inside_a_task(*team)) team->fail({team->graph.recorded().comm.rank(), true, "", what});
+}
+
+/// What is said, and written.
+std::string Watchdog::report(double quiet_s, const std::string& silent) const {
+  const Heartbeat* const heartbeat = Heartbeat::current();
+  const int rank = heartbeat ? heartbeat->rank() : at_work_.empty() ? 0 : at_work_.back()->graph.recorded().comm.rank();
+  std::string what = "nothing completed for " + std::to_string(int(quiet_s)) + " s on rank " + std::to_string(rank) +
+                     (silent.empty() ? "" : "; " + silent) + (at_work_.empty() ? ", where no graph runs\n" : ":\n");
+  for (const Team* team : at_work_) what += dump(*team);
+  std::fputs(("watchdog: " + what).c_str(), file_);
+  std::fflush(file_);
+  return what;
 }
 
 }  // namespace spindrift::runtime

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "runtime/mpi/stop_request.hpp"
+
 namespace spindrift::runtime {
 
 namespace {
-constexpr int question = 1, reply = 2;
+constexpr int question_tag = 1, reply_tag = 2, stop_tag = 3;
 constexpr std::size_t most_named = 16;
 Heartbeat* of_process = nullptr;
 }  // namespace
@@ -17,7 +19,7 @@ Heartbeat::Heartbeat(MPI_Comm world) {
   MPI_Comm_dup(world, &comm_);
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
-  heard_.assign(rank_ == 0 ? std::size_t(size_) : 1, 0);
+  open_.resize(std::size_t(size_));
   of_process = this;
   thread_ = std::thread([this] { live(); });
 }
@@ -41,10 +43,20 @@ void Heartbeat::send(int rank, int tag, const std::vector<int>& words) {
   MPI_Isend(buffers_.back().data(), int(buffers_.back().size()), MPI_INT, rank, tag, comm_, &sent_.emplace_back());
 }
 
+void Heartbeat::question(int rank) {
+  std::optional<Time>& open = open_[std::size_t(rank)];
+  if (open) return;
+  open = std::chrono::steady_clock::now();
+  told_.clear();
+  send(rank, question_tag, {});
+}
+
+/// Those that this rank asks by itself.
 std::vector<int> Heartbeat::unheard() const {
+  const Time long_ago = std::chrono::steady_clock::now() - std::chrono::milliseconds(std::int64_t(1e3 * patience_s_));
   std::vector<int> ranks;
-  for (int r = 1; r < size_ && ranks.size() < most_named; ++r)
-    if (!heard_[std::size_t(r)]) ranks.push_back(r);
+  for (int r = 0; r < size_ && ranks.size() < most_named; ++r)
+    if (const std::optional<Time>& open = open_[std::size_t(r)]; open && *open < long_ago) ranks.push_back(r);
   return ranks;
 }
 
@@ -52,6 +64,7 @@ void Heartbeat::live() {
   std::unique_lock guard(lock_);
   while (!leaving_) {
     attend();
+    pass_on_stop();
     changed_.wait_for(guard, std::chrono::milliseconds(500));
     if (leaving_ || !end_ || std::chrono::steady_clock::now() < *end_) continue;
     std::fputs("watchdog: this process waits in MPI for a rank that does not answer and is ended\n", stderr);
@@ -76,13 +89,13 @@ void Heartbeat::attend() {
     MPI_Get_count(&status, MPI_INT, &count);
     std::vector<int> words(static_cast<std::size_t>(count));
     MPI_Recv(words.data(), count, MPI_INT, status.MPI_SOURCE, status.MPI_TAG, comm_, MPI_STATUS_IGNORE);
-    if (status.MPI_TAG == question)
-      send(status.MPI_SOURCE, reply, rank_ == 0 && asked_ > 1 ? unheard() : std::vector<int>{});
-    else if (rank_ == 0)
-      heard_[std::size_t(status.MPI_SOURCE)] = 1;
+    if (status.MPI_TAG == stop_tag)
+      StopRequest::hear(words.at(0)), stop_passed_on_ = stop_passed_on_ || rank_ != 0;
+    else if (status.MPI_TAG == question_tag)
+      send(status.MPI_SOURCE, reply_tag, unheard());
     else
-      heard_[0] = 1, told_ = words;
-    if (rank_ == 0 && status.MPI_TAG == question) heard_[std::size_t(status.MPI_SOURCE)] = 1;  // who asks is there
+      told_ = words;
+    if (status.MPI_TAG != stop_tag) open_[std::size_t(status.MPI_SOURCE)].reset();  // who asks is there, too
   }
   // Those that have arrived; the order of the others stays.
   for (std::size_t n = sent_.size(); n-- > 0;) {
@@ -92,22 +105,29 @@ void Heartbeat::attend() {
   }
 }
 
-void Heartbeat::forget() {
-  const std::lock_guard guard(lock_);
-  std::fill(heard_.begin(), heard_.end(), char(0)), told_.clear(), asked_ = 0;
+/// By way of rank 0.
+void Heartbeat::pass_on_stop() {
+  const int signal = StopRequest::signal_caught();
+  if (signal != 0 && !stop_passed_on_)
+    for (int r = 0; r < (rank_ == 0 ? size_ : 1); ++r)
+      if (r != rank_) send(r, stop_tag, {signal});
+  stop_passed_on_ = signal != 0;
 }
 
-void Heartbeat::ask() {
+void Heartbeat::ask(double patience_s) {
   const std::lock_guard guard(lock_);
-  ++asked_;
-  if (rank_ != 0) return send(0, question, {});  // again, for what rank 0 has heard meanwhile
-  for (int r = 1; r < size_; ++r)
-    if (!heard_[std::size_t(r)]) send(r, question, {});
+  const Time now = std::chrono::steady_clock::now();
+  patience_s_ = patience_s;
+  if (std::chrono::duration<double>(now - last_asked_).count() < patience_s / 4) return;
+  last_asked_ = now;
+  for (int r = 0; r < (rank_ == 0 ? size_ : 1); ++r)
+    if (r != rank_) question(r);
 }
 
 std::string Heartbeat::silent() {
   const std::lock_guard guard(lock_);
-  const std::vector<int> ranks = rank_ == 0 ? unheard() : heard_[0] ? told_ : std::vector<int>{0};
+  std::vector<int> ranks = unheard();
+  if (rank_ != 0 && ranks.empty()) ranks = told_;
   std::string text;
   for (const int r : ranks)
     if (r != rank_) text += (text.empty() ? "" : ", ") + std::to_string(r);

@@ -24,6 +24,7 @@ constexpr std::array<std::pair<int, const char*>, 6> signals{{{SIGTERM, "SIGTERM
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max(), second_ns = 1'000'000'000;
 
 // Of the one request that lives; a signal handler can reach nothing else.
+std::atomic<bool> lives = false;
 std::atomic<int> cause = 0;
 std::atomic<std::int64_t> caught_ns = 0, limit_ns = never, margin_ns = 0, looked_ns = 0;
 std::string watched;  // written before threads look
@@ -38,7 +39,7 @@ std::int64_t now_ns() {  // may be called by a signal handler
 extern "C" void note_signal(int signal) {
   const std::int64_t now = now_ns();
   int none = 0;
-  if (cause.compare_exchange_strong(none, signal) || none >= wall_limit) {
+  if (cause.compare_exchange_strong(none, signal) || none >= wall_limit || caught_ns == 0) {
     caught_ns = now;
     return;
   }
@@ -71,8 +72,9 @@ std::string reason(int why) {
 StopAsked::StopAsked() : std::runtime_error(cause.load() != 0 ? reason(cause.load()) : "stopped on request") {}
 
 StopRequest::StopRequest() {
-  cause = 0, margin_ns = 0, looked_ns = 0, limit_ns = never;
+  cause = 0, caught_ns = 0, margin_ns = 0, looked_ns = 0, limit_ns = never;
   watched.clear();
+  lives = true;
   handle_all(note_signal);
 }
 
@@ -90,7 +92,7 @@ void StopRequest::watch(double wall_limit_s, std::filesystem::path file) {
 
 StopRequest::~StopRequest() {
   if (!over_) give_signals_back();
-  cause = 0, limit_ns = never;
+  lives = false, cause = 0, limit_ns = never;
   watched.clear();
 }
 
@@ -117,12 +119,35 @@ bool StopRequest::asked() {
   return cause.compare_exchange_strong(none, stop_file), true;
 }
 
+void StopRequest::give_up_if_asked() {
+  if (asked()) throw StopAsked();
+}
+
+int StopRequest::signal_caught() {
+  const int why = cause.load(std::memory_order_relaxed);
+  return why < wall_limit ? why : 0;
+}
+
+void StopRequest::hear(int signal) {
+  int none = 0;
+  if (lives) cause.compare_exchange_strong(none, signal);  // its own, which may come seconds later, is still the first
+}
+
 std::string StopRequest::agreed(MPI_Comm comm) const {
   int why = asked() ? cause.load() : 0;
   MPI_Allreduce(MPI_IN_PLACE, &why, 1, MPI_INT, MPI_MAX, comm);
   std::error_code none;
   if (why == stop_file && !file_.empty()) std::filesystem::remove(file_, none);
   return reason(why);
+}
+
+void give_up_together(MPI_Comm comm, const std::function<void()>& work) {
+  int given_up = 0;
+  try {
+    work();
+  } catch (const StopAsked&) { given_up = 1; }
+  MPI_Allreduce(MPI_IN_PLACE, &given_up, 1, MPI_INT, MPI_MAX, comm);
+  if (given_up != 0) throw StopAsked();
 }
 
 }  // namespace spindrift::runtime

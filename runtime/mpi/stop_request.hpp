@@ -1,11 +1,13 @@
 // "Finish the window, save, stop": a signal sent to any rank, a file, or a limit on wall time, agreed on by all ranks. Checked
-// between windows and, through a sum over the ranks, between the pieces in which a resolved rotor's air settles. Used by
-// src/coupling; tested in tests/runtime/stop_request_test.cpp and tests/faults. SPDX-License-Identifier: Apache-2.0
+// between windows; through a reduction in every pseudo-step of the air, substep of particles and hundred steps of bodies; and by
+// each rank alone while grids are made. Used by src; tested in tests/runtime/stop_request_test.cpp and tests/faults.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <mpi.h>
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -38,6 +40,11 @@ class StopRequest {
 
   /// Whether this process knows of a request, to be summed over the ranks by who acts on it. Cheap; from any thread.
   static bool asked();
+  /// For work in which ranks do not meet: throws StopAsked where this process knows of a request. See give_up_together.
+  static void give_up_if_asked();
+  /// The signal that this process was sent, or has heard of from another rank; 0 where there is none.
+  static int signal_caught();
+  static void hear(int signal);
   /// Why to stop, on all ranks alike; empty to go on. Collective over `comm`; a few microseconds.
   std::string agreed(MPI_Comm comm) const;
 
@@ -45,5 +52,9 @@ class StopRequest {
   std::filesystem::path file_;
   bool over_ = false;
 };
+
+/// Does work in which ranks do not meet and which each gives up by itself (StopAsked). Where one has, all throw StopAsked.
+/// Collective.
+void give_up_together(MPI_Comm comm, const std::function<void()>& work);
 
 }  // namespace spindrift::runtime

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "runtime/executor/executor.hpp"
+#include "runtime/executor/watchdog.hpp"
 
 using namespace spindrift::runtime;
 using Catch::Contains;
@@ -78,6 +79,25 @@ TEST_CASE("a hang is dumped with what waits for what, and ends the run", "[runti
   CHECK_THAT(text, Contains("sea/halo/receive (iteration 0) waits for rank 0, tag 7"));
   CHECK_THAT(text, Contains("sea/force/1 (iteration 0) waits for sea/halo/receive"));
   CHECK_THAT(text, !Contains("sea/free"));
+}
+
+TEST_CASE("where the process has a watchdog its time counts, not that of an executor", "[runtime][fast]") {
+  std::FILE* log = std::tmpfile();
+  const Watchdog watchdog(Watchdog::Of::process, 0.2, log);
+  for (int n = 0; n < 2; ++n) {
+    Graph g;
+    double value = 0;
+    g.receive("sea/halo/receive", {writes(g.datum())}, {0, 7, buffer_of(std::span(&value, 1))});
+    Executor executor(std::move(g), {.threads = 2, .watchdog_s = 0});
+    CHECK_THROWS_AS(executor.run(), HangError);
+  }
+  Watchdog::set_limit(0.0);
+  CHECK(Watchdog::current() == nullptr);
+  std::rewind(log);
+  char text[2000] = {};
+  CHECK(std::fread(text, 1, sizeof text - 1, log) > 0);
+  std::fclose(log);
+  CHECK_THAT(text, Contains("sea/halo/receive (iteration 0) waits for rank 0, tag 7"));
 }
 
 TEST_CASE("a task that only takes long is named by the watchdog and left to finish", "[runtime][fast]") {

@@ -13,7 +13,7 @@
 #include <thread>
 
 using Catch::Matchers::Contains;
-using spindrift::runtime::StopRequest;
+using spindrift::runtime::give_up_together, spindrift::runtime::StopAsked, spindrift::runtime::StopRequest;
 using namespace std::chrono_literals;
 
 namespace {
@@ -85,6 +85,39 @@ TEST_CASE("a request that is gone gives the signals back", "[runtime][faults][fa
           { const StopRequest stop; }
           ::raise(SIGTERM);
         }) == SIGTERM);
+}
+
+TEST_CASE("a signal to one rank is known to all, which give up work that each does alone",
+          "[runtime][faults][fast][mpi2][mpi4]") {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const StopRequest stop;
+  CHECK_NOTHROW(give_up_together(MPI_COMM_WORLD, [] { StopRequest::give_up_if_asked(); }));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == size - 1) ::raise(SIGTERM);
+  const auto latest = std::chrono::steady_clock::now() + 60s;
+  const auto work = [&] {
+    while (std::chrono::steady_clock::now() < latest) {
+      StopRequest::give_up_if_asked();
+      std::this_thread::sleep_for(1ms);
+    }
+  };
+  CHECK_THROWS_AS(give_up_together(MPI_COMM_WORLD, work), StopAsked);
+  CHECK(StopRequest::signal_caught() == SIGTERM);
+  if (rank != size - 1) ::raise(SIGTERM);  // its own is no second one
+  MPI_Barrier(MPI_COMM_WORLD);
+  std::this_thread::sleep_for(1100ms);  // the heartbeat has seen that it was passed on
+}
+
+TEST_CASE("a rank of which all have heard that it is to stop gives up without a signal of its own", "[runtime][faults][mpi4]") {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  CHECK_THROWS_AS(give_up_together(MPI_COMM_WORLD,
+                                   [&] {
+                                     if (rank == 2) throw StopAsked();
+                                   }),
+                  StopAsked);
 }
 
 TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
