@@ -45,12 +45,12 @@ void interpolate(const ResolvedRotor& from, ResolvedRotor& to, MPI_Comm comm) {
 RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, ResolvedRotor& fine, const runtime::World& world) {
   ResolvedRotorSetup first = coarser(setup);
   first.flow.max_pseudo_steps = steps, first.flow.coarse_steps = 0, first.flow.drop = setup.flow.coarse_drop;
-  ResolvedRotor coarse(first, world.size, world.rank, 0, made_rotor_grid(first, world.comm));
-  coarse.solver().start_uniform();
-  coarse.prepare(world.comm);
-  coarse.run();
-  interpolate(coarse, fine, world.comm);
-  return coarse.load();
+  const std::unique_ptr<ResolvedRotor> coarse = ResolvedRotor::on(world, first, 0, made_rotor_grid(first, world.comm));
+  coarse->solver().start_uniform();
+  coarse->prepare(world.comm);
+  coarse->run();
+  interpolate(*coarse, fine, world.comm);
+  return coarse->load();
 }
 
 }  // namespace spindrift::aero

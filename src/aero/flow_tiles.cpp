@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/flow/poisson.hpp"
 #include "src/aero/grid/wall_distance.hpp"
@@ -16,14 +17,14 @@ std::unique_ptr<GridStore> flow_tiles(const MultiBlockGrid& grid, Tiling tiling,
   std::vector<int> ranks(std::size_t(tiling.size()), 0);
   if (world.size > 1) ranks = runtime::partition_blocks(tile_graph(tiling), {.ranks = world.size}).rank_of_block;
   auto store = std::make_unique<GridStore>(std::move(tiling), std::move(ranks), world.rank);
-  store->build_all(grid, moves);
+  runtime::give_up_together(world.comm, [&] { store->build_all(grid, moves); });
   std::vector<std::string> no_slip;
   for (const PatchOptions& b : o.boundaries)
     if (sticks(b.condition)) no_slip.push_back(b.patch);
   if (o.wall_distance == "poisson") {
     fill_wall_distance_by_poisson(*store, no_slip, world.comm);
   } else {
-    fill_wall_distance(*store, wall_surface(grid, no_slip));
+    runtime::give_up_together(world.comm, [&] { fill_wall_distance(*store, wall_surface(grid, no_slip)); });
   }
   return store;
 }

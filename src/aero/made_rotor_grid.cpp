@@ -10,6 +10,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/exchange.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 #include "src/aero/rotor_grid/pitching.hpp"
@@ -29,7 +30,8 @@ struct Moments {
 
 /// What ranks see in layers from the hub on, one after the other.
 struct Look {
-  std::string failure;  ///< why it could not be; then there is nothing else
+  std::string failure;    ///< why it could not be; then there is nothing else
+  bool given_up = false;  ///< since the run is to stop; likewise
   RotorGridQuality quality;
   EdgeLengths edges;
   std::vector<Moments> moments;
@@ -118,6 +120,7 @@ BladeStation station(runtime::Unpacker& from) {
 runtime::Bytes parcel(const Look& look) {
   runtime::Packer to;
   to.put(std::span<const char>(look.failure));
+  to.put_one(look.given_up);
   put(to, look.quality);
   to.put(look.edges.layers());
   to.put(std::span<const Moments>(look.moments));
@@ -144,6 +147,7 @@ void add(Look& all, const runtime::Bytes& bytes) {
   runtime::Unpacker from(bytes);
   const std::vector<char> failure = from.many<char>();
   if (all.failure.empty()) all.failure.assign(failure.begin(), failure.end());
+  all.given_up = from.one<bool>() || all.given_up;
   merge(all.quality, quality(from));
   all.edges.append(from.many<EdgeLengths::Layer>());
   append(all.moments, from.many<Moments>());
@@ -189,6 +193,7 @@ Look look_through(const MadeRotorGrid& made, const std::vector<std::string>& sti
   const int begin = int(layers * rank / ranks), last = int(layers * (rank + 1) / ranks);
   for (int first = begin; first < last; first += some) {
     if (told) told("rotor grid", double(first - begin) / (last - begin));
+    runtime::StopRequest::give_up_if_asked();
     const int end = std::min(last, first + some);
     const GridLayers part = made.maker->make(first, end, true);
     merge(look.quality, rotor_grid_quality(part, {"blade_"}));
@@ -239,10 +244,13 @@ std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& s
   try {
     describe(*made, setup);
     mine = look_through(*made, sticking_patches(setup, made->grid), comm, told);
-  } catch (const std::exception& failure) { own = std::current_exception(), mine.failure = failure.what(); }
+  } catch (const runtime::StopAsked&) { mine.given_up = true; } catch (const std::exception& failure) {
+    own = std::current_exception(), mine.failure = failure.what();
+  }
   Look all;
   all.edges = EdgeLengths(made->grid);
   for (const runtime::Bytes& bytes : runtime::exchange_all(comm, parcel(mine))) add(all, bytes);
+  if (all.given_up) throw runtime::StopAsked();
   if (own) std::rethrow_exception(own);
   if (!all.failure.empty()) throw NumericalFailure(all.failure, "aero.grid", 0, 0.0);
   made->edges = std::move(all.edges), made->radii = std::move(all.radii);

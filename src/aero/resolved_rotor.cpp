@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernels/base/constants.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/wall_distance.hpp"
@@ -99,6 +100,14 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   if (!steady()) place({turned(-1)}, {turned(0)});
 }
 
+std::unique_ptr<ResolvedRotor> ResolvedRotor::on(const runtime::World& world, const ResolvedRotorSetup& setup, int chunk,
+                                                 std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told) {
+  std::unique_ptr<ResolvedRotor> rotor;
+  runtime::give_up_together(
+      world.comm, [&] { rotor = std::make_unique<ResolvedRotor>(setup, world.size, world.rank, chunk, std::move(made), told); });
+  return rotor;
+}
+
 /// Of the tiles of this rank, and how they follow the pitch of blades: layers of the grid, made again.
 void ResolvedRotor::make_nodes() {
   pitching_ = std::make_unique<BladePitching>(made_->grid, made_->radii, made_->turbine, made_->spec);
@@ -113,6 +122,7 @@ void ResolvedRotor::make_nodes() {
   const int layers = int(wanted.size()), some = made_->layers_at_once();
   for (int first = 0; first < layers; ++first) {
     if (!wanted[std::size_t(first)]) continue;
+    runtime::StopRequest::give_up_if_asked();
     int last = first;
     while (last < layers && last < first + some && wanted[std::size_t(last)]) ++last;
     GridLayers part = made_->maker->make(first, last);

@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/executor/watchdog.hpp"
 #include "runtime/mpi/environment.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/app/commands.hpp"
 #include "src/io/log.hpp"
 #include "src/io/machine_failure.hpp"
@@ -57,6 +59,9 @@ int guarded(const std::function<int()>& command, std::string& refusal) {
   } catch (const NumericalFailure& e) {
     spdlog::error("{}", e.what());
     return app::numerical_failure;
+  } catch (const runtime::StopAsked& e) {  // before there was a folder to say so in; the same on all ranks
+    spdlog::warn("{}, before the run began: nothing is written", e.what());
+    return app::stopped;
   } catch (const std::exception& e) {
     spdlog::error("{}", e.what());
     return app::machine_failure;
@@ -168,6 +173,7 @@ int main(int argc, char** argv) {
     int code = app::bad_input;
     {
       const runtime::MpiEnvironment mpi(argc, argv);
+      const runtime::Watchdog watchdog(runtime::Watchdog::Of::process);  // until the last rank has come to the end
       io::start_log(mpi.rank(), false);
       if (refusal.empty()) code = guarded([&] { return command(mpi.world()); }, refusal);
       if (code == app::machine_failure && mpi.size() > 1) mpi.abort(code);  // the other ranks may be waiting for this one

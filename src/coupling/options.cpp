@@ -154,7 +154,7 @@ const scene::Section<RuntimeOptions>& runtime_section() {
           .number(
               "watchdog_s", &RuntimeOptions::watchdog_s, "s",
               "Where no task completes for so long, what they wait for is said, and the run ends with exit code 4 unless one is "
-              "at work; 0: never.",
+              "at work. A rank that stands still is named within this time, and ends the run. 0: never.",
               scene::between(0.0, 1e9));
   return section;
 }

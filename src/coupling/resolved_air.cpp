@@ -139,7 +139,7 @@ class ResolvedAir final : public MarchingAir {
   void make() override {
     setup_.flow.preconditioner = preconditioner_;
     (void)grid();
-    rotor_ = std::make_unique<aero::ResolvedRotor>(setup_, world_.size, world_.rank, 0, std::move(grid_), grid_progress());
+    rotor_ = aero::ResolvedRotor::on(world_, setup_, 0, std::move(grid_), grid_progress());
     solver_ = &rotor_->solver();
     solver_->start_uniform();
     place_at(state_, setup_.dt);
@@ -199,16 +199,16 @@ class ResolvedAir final : public MarchingAir {
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
     steady.profile = {}, steady.wind *= share_at_hub();
     const int piece = settling_piece(double(size_.cells), steps);  // a large grid shows life in the log
-    aero::ResolvedRotor held(steady, world_.size, world_.rank, piece, grid(), grid_progress());
-    spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held.solver().cells());
-    held.solver().start_uniform();
-    held.prepare(world_.comm, {.watchdog_s = scenario().runtime.watchdog_s});
-    settle({.solver = held.solver(),
-            .run = [&] { held.run(); },
-            .thrust = [&](const aero::PseudoRow& row) { return held.load(row).thrust; }},
+    const std::unique_ptr<aero::ResolvedRotor> held = aero::ResolvedRotor::on(world_, steady, piece, grid(), grid_progress());
+    spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held->solver().cells());
+    held->solver().start_uniform();
+    held->prepare(world_.comm, {.watchdog_s = scenario().runtime.watchdog_s});
+    settle({.solver = held->solver(),
+            .run = [&] { held->run(); },
+            .thrust = [&](const aero::PseudoRow& row) { return held->load(row).thrust; }},
            retry);
-    loads_.computed = computed_loads(held);
-    return held.solver().restart().save_tiles();
+    loads_.computed = computed_loads(*held);
+    return held->solver().restart().save_tiles();
   }
 
   /// The grid where the rotor is, with a last step of `dt` at its velocity, in which blades pitched as they did in the last one.

@@ -228,16 +228,18 @@ std::unique_ptr<BodySide> share_bodies(const runtime::Parts& parts, std::unique_
 void on_parts(const runtime::Parts& parts, const std::function<void()>& work) {
   if (!parts.split()) return work();
   std::string why;
+  bool stops = false;
   try {
     work();
   } catch (const scene::SceneError& e) { why = e.what(); } catch (const io::InputError& e) {
     why = e.what();
-  }
+  } catch (const runtime::StopAsked&) { stops = true; }
   for (const int part : {sea_part, air_part}) {
     Packer parcel;
-    put(parcel, why);
+    parcel.put_one(stops), put(parcel, why);
     const runtime::Bytes bytes = parts.share(part, parcel.take());
     Unpacker from(bytes);
+    if (from.one<bool>()) throw runtime::StopAsked();
     if (const std::string said = text(from); !said.empty()) throw io::InputError(said);
   }
 }

@@ -27,7 +27,8 @@ struct Sides {
 Sides make_sides(FloatingSystem& floating, std::span<const Motion> start, const runtime::Parts& parts);
 
 /// Runs `work` on every rank, each for the parts it has. What is wrong with the user's scene or files (scene::SceneError,
-/// io::InputError, alike on all ranks of a part) is thrown on all ranks, as io::InputError; anything else ends the program.
+/// io::InputError, alike on all ranks of a part) is thrown on all ranks, as io::InputError; so is runtime::StopAsked. Anything
+/// else ends the program.
 /// Collective.
 void on_parts(const runtime::Parts& parts, const std::function<void()>& work);
 

@@ -5,13 +5,14 @@
 #include <cstring>
 #include <exception>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/io/machine_failure.hpp"
 
 namespace spindrift::io {
 
 namespace {
 
-enum class Failure : int { none, input, machine, other };
+enum class Failure : int { none, input, machine, stop, other };
 
 /// What every rank learns of the first failure.
 void throw_everywhere(MPI_Comm comm, Failure mine, std::string message) {
@@ -30,6 +31,8 @@ void throw_everywhere(MPI_Comm comm, Failure mine, std::string message) {
       throw InputError(message);
     case Failure::machine:
       throw MachineFailure(message);
+    case Failure::stop:
+      throw runtime::StopAsked();
     case Failure::none:
     case Failure::other:
       break;
@@ -44,7 +47,9 @@ void guarded(MPI_Comm comm, bool takes_part, const std::function<void()>& work) 
     if (takes_part) work();
   } catch (const InputError& error) { failure = Failure::input, message = error.what(); } catch (const MachineFailure& error) {
     failure = Failure::machine, message = error.what();
-  } catch (const std::exception& error) { failure = Failure::other, message = error.what(); }
+  } catch (const runtime::StopAsked&) { failure = Failure::stop; } catch (const std::exception& error) {
+    failure = Failure::other, message = error.what();
+  }
   throw_everywhere(comm, failure, std::move(message));
 }
 

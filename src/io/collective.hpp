@@ -14,7 +14,8 @@ int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);
 
 /// Collective. Runs `work` on every rank; where it throws on any, all ranks throw the lowest failing rank's exception
-/// (MachineFailure, InputError; anything else as std::runtime_error). `work` itself must not wait for other ranks after a throw.
+/// (MachineFailure, InputError, runtime::StopAsked; anything else as std::runtime_error). `work` itself must not wait for other
+/// ranks after a throw.
 void together(MPI_Comm comm, const std::function<void()>& work);
 
 /// Collective. Runs `work` on rank 0 alone, with the same rule for failures.

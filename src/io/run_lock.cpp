@@ -15,6 +15,7 @@
 #include <optional>
 #include <sstream>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/io/machine_failure.hpp"
 
 namespace spindrift::io {
@@ -96,6 +97,7 @@ bool lives(const fs::path& path, const Holder& holder, const LockTimes& times) {
                std::chrono::duration<double>(times.stale).count());
   const auto end = std::chrono::steady_clock::now() + times.stale;
   while (std::chrono::steady_clock::now() < end) {
+    runtime::StopRequest::give_up_if_asked();
     std::this_thread::sleep_for(std::min(times.beat / 5, times.stale / 5));
     const std::optional<Holder> now = read_holder(path);
     if (!now || now->all != holder.all) return now.has_value();

@@ -23,7 +23,7 @@ class RunLock {
   static constexpr const char* file_name = "run.lock";
 
   /// Takes the lock of the folder, which exists. Throws InputError that names the holder where there is a live one. Waits for at
-  /// most `times.stale` where the holder is on another computer.
+  /// most `times.stale` where the holder is on another computer; throws runtime::StopAsked where it is asked to stop meanwhile.
   explicit RunLock(const std::filesystem::path& folder, LockTimes times = {});
   /// Gives it back.
   ~RunLock();

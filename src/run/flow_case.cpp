@@ -107,9 +107,8 @@ FlowCase::FlowCase(const coupling::Scenario& s, const runtime::World& world, int
   wind_ = coupling::changing_wind(s);
   if (has_resolved_rotor(s)) {
     const aero::ResolvedRotorSetup setup = resolved_rotor_setup(s);
-    rotor_ = std::make_unique<aero::ResolvedRotor>(setup, world.size, world.rank, chunk,
-                                                   made_rotor_grid(setup, world.comm, coupling::grid_progress()),
-                                                   coupling::grid_progress());
+    rotor_ = aero::ResolvedRotor::on(world, setup, chunk, made_rotor_grid(setup, world.comm, coupling::grid_progress()),
+                                     coupling::grid_progress());
     store_ = &rotor_->store(), solver_ = &rotor_->solver();
     place_wind(world.comm);
     begin(o.start);

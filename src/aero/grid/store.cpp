@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/mpi/stop_request.hpp"
+
 namespace spindrift::aero {
 
 namespace {
@@ -248,7 +250,10 @@ void GridStore::build(int tile, const MultiBlockGrid& grid, bool moving) {
 }
 
 void GridStore::build_all(const MultiBlockGrid& grid, bool moving) {
-  for (const int t : owned_) build(t, grid, moving);
+  for (const int t : owned_) {
+    runtime::StopRequest::give_up_if_asked();
+    build(t, grid, moving);
+  }
   fill_local_geometry();
 }
 

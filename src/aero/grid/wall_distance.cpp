@@ -2,11 +2,13 @@
 #include "src/aero/grid/wall_distance.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "kernels/grid/nearest_point.hpp"
+#include "runtime/mpi/stop_request.hpp"
 
 namespace spindrift::aero {
 
@@ -139,13 +141,16 @@ void fill_wall_distance(TileGeometry& g, const WallSurface& wall) {
 void fill_wall_distance(GridStore& store, const WallSurface& wall, const std::function<void(double)>& told) {
   const std::span<const int> owned = store.owned();
   std::size_t filled = 0;
+  std::atomic<bool> stops = false;  // no exception leaves a parallel loop
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t t = 0; t < owned.size(); ++t) {
+    if (stops || (stops = runtime::StopRequest::asked())) continue;
     fill_wall_distance(store[owned[t]], wall);
     if (!told) continue;
 #pragma omp critical(wall_distance_progress)
     told(double(++filled) / double(owned.size()));
   }
+  if (stops) throw runtime::StopAsked();
 }
 
 }  // namespace spindrift::aero

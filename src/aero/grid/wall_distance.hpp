@@ -57,7 +57,8 @@ WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string
 /// Distance of every cell centre of a tile; infinite where the surface is empty.
 void fill_wall_distance(TileGeometry& geometry, const WallSurface& wall);
 
-/// The same of all tiles that the store owns, on the threads of the rank; `told` hears the share that is done.
+/// The same of all tiles that the store owns, on the threads of the rank; `told` hears the share that is done. Throws
+/// runtime::StopAsked, on this rank alone, where it is asked to stop meanwhile.
 void fill_wall_distance(GridStore& store, const WallSurface& wall, const std::function<void(double)>& told = {});
 
 }  // namespace spindrift::aero

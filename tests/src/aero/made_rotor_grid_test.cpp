@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/made_rotor_grid.hpp"
 
+#include <signal.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
+#include "runtime/mpi/stop_request.hpp"
+#include "src/aero/resolved_rotor.hpp"
 #include "src/aero/rotor_grid/quality.hpp"
 #include "src/scene/error.hpp"
 
@@ -87,4 +91,23 @@ TEST_CASE("a turbine that cannot be read is refused by both ranks", "[rotor][mpi
   ResolvedRotorSetup s = eddying(1.0);
   if (rank == 1) s.rotor.turbine += ".gone";  // as a disk that only one node has lost
   CHECK_THROWS_WITH(made_rotor_grid(s, MPI_COMM_WORLD), Contains("dtu_10mw.toml.gone"));
+}
+
+TEST_CASE("a grid, its tiles and wall distances are given up on all ranks where one is asked to stop", "[rotor][mpi2]") {
+  runtime::World world;
+  MPI_Comm_rank(world.comm, &world.rank);
+  MPI_Comm_size(world.comm, &world.size);
+  const ResolvedRotorSetup setup = eddying(1.2);
+  const auto made = made_rotor_grid(setup, world.comm);
+  for (const std::string_view stage : {"rotor grid", "tiles", "wall distances"}) {
+    const runtime::StopRequest stop;
+    const auto asks = [&](std::string_view what, double) {
+      if (what == stage && world.rank == 1) ::raise(SIGUSR1);
+    };
+    if (stage == "rotor grid")
+      CHECK_THROWS_AS(made_rotor_grid(setup, world.comm, asks), runtime::StopAsked);
+    else
+      CHECK_THROWS_AS(ResolvedRotor::on(world, setup, 0, made, asks), runtime::StopAsked);
+    MPI_Barrier(world.comm);
+  }
 }

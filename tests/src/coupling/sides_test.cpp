@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 
@@ -115,6 +116,11 @@ TEST_CASE("what is wrong with the files of one side stops all ranks with the sam
                                if (parts.has(sea_part)) throw scene::SceneError({{"a.toml", 3, "sea", "", "too small"}});
                              }),
                     Catch::Contains("too small"));
+  CHECK_THROWS_AS(on_parts(parts,
+                           [&] {
+                             if (parts.has(air_part)) throw runtime::StopAsked();
+                           }),
+                  runtime::StopAsked);
 }
 
 TEST_CASE("arrays of one side are written by its ranks into the file of all", "[coupling][mpi2]") {

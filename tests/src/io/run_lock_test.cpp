@@ -3,6 +3,7 @@
 #include "src/io/run_lock.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/io/atomic_file.hpp"
 #include "src/io/machine_failure.hpp"
 #include "tests/src/io/scratch.hpp"
@@ -72,6 +74,17 @@ TEST_CASE("a lock of another machine is stale when its heartbeat stands still, a
   done = true;
   other.join();
   CHECK(std::filesystem::exists(file));
+}
+
+TEST_CASE("waiting for another machine's heartbeat ends with a request to stop, and leaves the lock", "[io][faults][fast]") {
+  const test::Scratch folder("lock");
+  const std::filesystem::path file = folder / io::RunLock::file_name;
+  write_foreign(file, 3);
+  const std::string before = io::read_file(file);
+  const runtime::StopRequest stop;
+  ::raise(SIGTERM);
+  CHECK_THROWS_AS(io::RunLock(folder.path(), {.beat = 50ms, .stale = 600s}), runtime::StopAsked);
+  CHECK(io::read_file(file) == before);
 }
 
 TEST_CASE("a lock that its process did not come to write is stale too", "[io][faults][fast]") {
