@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "kernels/base/failure.hpp"
+#include "runtime/executor/watchdog.hpp"
 #include "runtime/mpi/affinity.hpp"
 #include "runtime/mpi/parts.hpp"
 #include "runtime/mpi/stop_request.hpp"
@@ -108,20 +109,33 @@ io::HistoryStatistics statistics(const io::RunDirectory& directory, const coupli
   return io::history_statistics(directory.history(), run::mean_ranges(scenario.output, end_s));
 }
 
+/// The last time in a history.csv; 0 where there is none.
+double last_time_s(const std::filesystem::path& history) {
+  if (!std::filesystem::exists(history)) return 0.0;
+  const io::HistoryStatistics rows = io::history_statistics(history, {});
+  return rows.rows > 0 ? rows.columns.at(0).final : 0.0;
+}
+
 /// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
 /// it goes on (a failure of the system, which the other ranks may not know of) or ends the run (what all ranks know).
 io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, io::Summary summary,
                        const std::function<io::Summary()>& run) {
+  const io::SummaryOfOthers before(directory.summary());  // of all ranks but the first
   const auto end = [&](int code, const std::string& why) {
     summary.exit_code = code, summary.exit_reason = why;
     summary.ranks = world.size;
     if (code == numerical_failure) summary.numerical_trouble.push_back(why);
   };
   // A new run says what it was refused for; one that goes on keeps the summary that it has.
+  const auto write = [&](int code, const std::string& why) {
+    end(code, world.rank == 0 ? why : fmt::format("rank {}: {}", world.rank, why));
+    if (world.rank == 0)
+      write_summary(directory.summary(), summary);
+    else
+      before.write_instead(summary, world.rank);
+  };
   const auto refused = [&](const std::string& why) {
-    if (world.rank != 0 || directory.resumes()) return;
-    end(bad_input, why);
-    write_summary(directory.summary(), summary);
+    if (!directory.resumes()) write(bad_input, why);
   };
   try {
     return run();
@@ -132,11 +146,12 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
     refused(refusal.what());
     throw;
   } catch (const runtime::StopAsked& why) {
-    end(stopped, fmt::format("{}, before the first window; with --restart the run begins anew, air that settles where it was",
-                             why.what()));
+    end(stopped,
+        fmt::format("{}, before the first window; with --restart the run {}", why.what(),
+                    directory.resumes() ? "goes on from its newest checkpoint" : "begins anew, air that settles where it was"));
+    if (directory.resumes() && world.rank == 0) summary.start_time_s = summary.end_time_s = last_time_s(directory.history());
   } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
-    end(machine_failure, failure.what());
-    if (world.rank == 0) write_summary(directory.summary(), summary);
+    write(machine_failure, failure.what());
     throw;
   }
   return summary;
@@ -234,6 +249,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     document = load_scene(arguments.scene, arguments.overrides, overrider);
     read.emplace();
     scenario = coupling::read_scenario(*document);
+    runtime::Watchdog::set_limit(scenario->runtime.watchdog_s);  // to the end of the program, whatever ranks do
     coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
     echo = document->echo();
     return coupling::Started{
@@ -253,6 +269,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     require_expected_columns(*document, scenario->output, columns_of_air_alone());
   require_writable(arguments, world.comm);
   io::RunDirectory directory = open_directory(arguments, world.comm);
+  stop.watch(scenario->runtime.wall_limit_s, directory.stop());
   require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, echo);
@@ -286,7 +303,6 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   }
   // Before the run: meanwhile the file may be edited or gone.
   const std::string title = world.rank == 0 ? title_of(arguments, scenario->output.title) : "";
-  stop.watch(scenario->runtime.wall_limit_s, directory.stop());
   io::Summary begun;
   begun.title = title, begun.scene = arguments.scene, begun.overrides = arguments.overrides;
   begun.ranks = world.size, begun.threads = threads;

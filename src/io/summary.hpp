@@ -68,6 +68,19 @@ double real_time_factor(const Summary& summary);
 /// Rank 0. Of a run that begins: what it is of, and no exit code. It stays where the run is killed.
 void write_summary_of_start(const std::filesystem::path& path, const Summary& summary);
 
+/// summary.json as a rank other than 0 finds it, for a failure that rank 0, which will be ended, does not know of.
+class SummaryOfOthers {
+ public:
+  explicit SummaryOfOthers(std::filesystem::path path);
+  /// This one, where rank 0 has not written how the run ended, nor does within a second; and where this rank's computer has the
+  /// file. Never throws.
+  void write_instead(const Summary& summary, int rank) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string before_;
+};
+
 /// Rank 0. With build_info(), the host's name and processor; numbers that are not finite become null.
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 

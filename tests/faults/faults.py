@@ -32,6 +32,9 @@ aero.grid = {cells_round = 28, cells_layers = 4, cells_span = 8, first_cell_chor
 aero.flow = {viscous = "none", cfl_max = 100.0, max_pseudo_steps = 3}
 output.expected = []
 ''' % (INPUTS / "leble_barakos/case3_demo.toml")
+# Ten seconds of making a grid, and a window of many steps of bodies.
+GRID = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.grid.resolution=3.5"]
+WINDOW = [INPUTS / "leble_barakos/case1_engineering.toml", "--set", "time.end_s=40.0", "--set", "time.window_s=40.0", "--set", "time.step_s=0.0005"]
 QUIET = ["--no-report", "--quiet"]
 
 
@@ -334,43 +337,191 @@ def processes_of(launcher):
     return found
 
 
+def started_on(ranks, mark, scene, out, said, *more):
+    """The program on so many ranks, found again by its mark."""
+    environment = dict(os.environ) | {"SPINDRIFT_FAULT": mark, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    return subprocess.Popen(["mpirun", "--oversubscribe", "-n", str(ranks), PROGRAM, "run", *map(str, scene), "--out", str(out), "--quiet", *map(str, more)], stdout=said, stderr=subprocess.STDOUT,
+                            env=environment)
+
+
+def wait_for(what, process, seconds=300):
+    """Until it is so, of a process that is to be at work meanwhile."""
+    end = time.time() + seconds
+    while not what():
+        assert process.poll() is None, "the run ended before it was met"
+        assert time.time() < end, "what was waited for did not come"
+        time.sleep(0.01)
+
+
+def text_of(path):
+    return path.read_text(errors="replace") if path.exists() else ""
+
+
+def require_named(process, mark, stopped, limit, said):
+    """That a rank which stands still from now on is named within the watchdog's time, and that the run ends by itself, not with 0. Returns how long both took."""
+    os.kill(processes_of(mark)[stopped], signal.SIGSTOP)
+    begin, named = time.time(), None
+    while process.poll() is None and time.time() < begin + 120:
+        if named is None and f"rank {stopped} does not answer" in said.read_text(errors="replace"):
+            named = time.time() - begin
+        time.sleep(0.05)
+    took, text = time.time() - begin, said.read_text(errors="replace")
+    if process.poll() is None:
+        left = {rank: (pathlib.Path("/proc") / str(one) / "status").read_text().split("State:")[1].split("\n")[0].strip() for rank, one in processes_of(mark).items()}
+        for one in processes_of(mark).values():
+            os.kill(one, signal.SIGKILL)
+        process.wait()
+        raise AssertionError(f"rank {stopped} stopped, and the run did not end; ranks left: {left}\n{text[-6000:]}")
+    assert process.returncode != 0, f"exit code 0 with a stopped rank\n{text[-2000:]}"
+    assert f"rank {stopped} does not answer" in text, f"rank {stopped} is not named\n{text[-3000:]}"
+    slack = 2.0   # of a busy computer; the last words of a run may be read when it has ended
+    assert named is None or named < limit + slack, f"rank {stopped} was named after {named:.1f} s, the watchdog's time is {limit:g} s"
+    return named or took, took
+
+
 def stopped_rank(folder, count, pick):
     """A rank of three that stands still (SIGSTOP) is named within the watchdog's time, and the run ends by itself with 4."""
-    longest, scene = 0.0, folder / "scene.toml"
+    longest = slowest = 0.0
+    scene, limit = folder / "scene.toml", 6.0
     scene.write_text(JOB)
     for n in range(count):
-        out, mark, limit, stopped = folder / f"stopped_{n}", f"{os.getpid()}_{n}", 6.0, n % 3
-        words = ["mpirun", "--oversubscribe", "-n", "3", PROGRAM, "run", str(scene), "--set", "time.end_s=600.0", "--set", f"runtime.watchdog_s={limit}", "--out", str(out), *QUIET]
-        environment = dict(os.environ) | {"SPINDRIFT_FAULT": mark, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        with open(folder / f"said_{n}", "w+", encoding="utf-8") as said:
-            process = subprocess.Popen(words, stdout=said, stderr=subprocess.STDOUT, env=environment)
-            while not (out / "history.csv").exists() or (out / "history.csv").read_bytes().count(b"\n") < 3:
-                assert process.poll() is None, "the run ended before it was stopped"
-                time.sleep(0.1)
-            time.sleep(pick.uniform(0.0, 1.0))
-            victim = processes_of(mark)[stopped]
-            os.kill(victim, signal.SIGSTOP)
-            begin = time.time()
-            try:
-                process.wait(timeout=180)
-            except subprocess.TimeoutExpired:
-                left = {rank: (pathlib.Path("/proc") / str(one) / "status").read_text().split("State:")[1].split("\n")[0].strip() for rank, one in processes_of(mark).items()}
-                for one in processes_of(mark).values():
-                    os.kill(one, signal.SIGKILL)
-                said.seek(0)
-                raise AssertionError(f"rank {stopped} stopped, and the run did not end; ranks left: {left}\n{said.read()[-6000:]}") from None
-            took = time.time() - begin
-            said.seek(0)
-            text = said.read()
-        assert process.returncode != 0, f"exit code 0 with a stopped rank\n{text[-2000:]}"
-        assert f"rank {stopped} does not answer" in text, f"rank {stopped} is not named\n{text[-3000:]}"
+        out, mark = folder / f"stopped_{n}", f"{os.getpid()}_{n}"
+        with open(folder / f"said_{n}", "w", encoding="utf-8") as said:
+            process = started_on(3, mark, [scene, "--set", "time.end_s=600.0", "--set", f"runtime.watchdog_s={limit}"], out, said, "--no-report")
+        wait_for(lambda: (out / "history.csv").exists() and (out / "history.csv").read_bytes().count(b"\n") >= 3, process)
+        time.sleep(pick.uniform(0.0, 1.0))
+        named, took = require_named(process, mark, n % 3, limit, folder / f"said_{n}")
         assert json.loads((out / "summary.json").read_text())["exit_code"] in (None, 4), "the summary says another end"
-        longest = max(longest, took)
-    return f"{count} stopped ranks named, runs ended within {longest:.1f} s of a watchdog of {limit:g} s"
+        longest, slowest = max(longest, took), max(slowest, named)
+    return f"{count} stopped ranks named within {slowest:.1f} s, runs ended within {longest:.1f} s of a watchdog of {limit:g} s"
+
+
+def stopped_at_start(folder, count, pick):
+    """The same of a rank that stands still where no graph runs: while a grid and its wall distances are made, and while rank 0 makes the report."""
+    longest = slowest = 0.0
+    limit = 6.0
+    for n in range(count):
+        out, mark, at_start = folder / f"stopped_{n}", f"{os.getpid()}_{n}", n % 2 == 0
+        scene = [*(GRID if at_start else SCENE), "--set", f"runtime.watchdog_s={limit}"]
+        with open(folder / f"said_{n}", "w", encoding="utf-8") as said:
+            process = started_on(2, mark, scene, out, said, *(["--no-report"] if at_start else []))
+        if at_start:
+            wait_for(lambda: "ranks" in text_of(out / "log.txt"), process)
+            time.sleep(pick.uniform(0.0, 0.5))
+        else:
+            wait_for(lambda: "making the report" in text_of(out / "log.txt"), process)
+        named, took = require_named(process, mark, n // 2 % 2 if at_start else 1, limit, folder / f"said_{n}")
+        assert json.loads((out / "summary.json").read_text())["exit_code"] in ((None, 4) if at_start else (0,)), "the summary says another end"
+        longest, slowest = max(longest, took), max(slowest, named)
+    return f"{count} stopped ranks named within {slowest:.1f} s, runs ended within {longest:.1f} s of a watchdog of {limit:g} s"
+
+
+def failed_rank(folder, count, pick):
+    """A rank that runs out of memory while it makes its particles ends the run. Its message has its number, and the summary, which the first rank cannot write, the code and the reason."""
+    for n in range(count):
+        out, mark, words = folder / f"failed_{n}", f"{os.getpid()}_{n}", folder / f"said_{n}"
+        with open(words, "w", encoding="utf-8") as said:
+            process = started_on(2, mark, [*TANK, "--set", "sea.particles.spacing_m=0.001"], out, said, "--no-report")
+        wait_for(lambda: "rank" in text_of(out / "log.txt"), process)
+        one = processes_of(mark)[1]
+        bytes_now = resource.getpagesize() * int((pathlib.Path("/proc") / str(one) / "statm").read_text().split()[0])
+        resource.prlimit(one, resource.RLIMIT_AS, (bytes_now + 2**25, resource.RLIM_INFINITY))
+        try:
+            process.wait(120)
+        finally:
+            process.kill()
+        said, summary = words.read_text(), json.loads((out / "summary.json").read_text())
+        assert process.returncode == 4, f"exit code {process.returncode}\n{said[-2000:]}"
+        assert "rank 1: error: " in said, said[-2000:]
+        assert summary["exit_code"] == 4 and summary["exit_reason"].startswith("rank 1: "), (summary["exit_code"], summary["exit_reason"])
+    return f"{count} ranks without memory"
+
+
+def require_stopped(process, begin, out, said):
+    """That a request of `begin` ends the run within ten seconds, with its exit code and a summary of it. Returns the summary and how long it took."""
+    try:
+        process.wait(120)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        raise AssertionError(f"two minutes after the request the run goes on\n{said.read_text()[-2000:]}") from None
+    took = time.time() - begin
+    assert process.returncode == 5, f"exit code {process.returncode}\n{said.read_text()[-2000:]}"
+    assert took < 10.0, f"{took:.1f} s to the end"
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["exit_code"] == 5, summary
+    return summary, took
+
+
+def signals_at_start(folder, count, pick):
+    """A large grid that is being made is given up: with a summary, and before it is done. A signal to one rank is enough."""
+    slowest = 0.0
+    for n in range(count):
+        out, mark, ranks, words = folder / f"signal_{n}", f"{os.getpid()}_{n}", 1 + n % 2, folder / f"said_{n}"
+        with open(words, "w", encoding="utf-8") as said:
+            process = started_on(ranks, mark, GRID, out, said, "--no-report")
+        wait_for(lambda: "rank" in text_of(out / "log.txt"), process)
+        time.sleep(pick.uniform(0.0, 1.0))
+        begin = time.time()
+        if n // 2 % 2:
+            (out / "stop").write_text("")
+        else:
+            os.kill(processes_of(mark)[ranks - 1], pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP]))
+        summary, took = require_stopped(process, begin, out, words)
+        assert "before the first window" in summary["exit_reason"], summary["exit_reason"]
+        assert " cells in " not in text_of(out / "log.txt"), "the grid was made all the same"
+        slowest = max(slowest, took)
+    return f"{count} requests, the slowest took {slowest:.1f} s"
+
+
+def signals_in_window(folder, count, pick):
+    """A long window of the bodies alone is given up, and made again by the next job: the history is that of the unbroken run. A signal to one rank is enough."""
+    expected, seconds = whole(folder, WINDOW)
+    slowest = 0.0
+    for n in range(count):
+        out, mark, ranks, words = folder / f"signal_{n}", f"{os.getpid()}_{n}", 1 + n % 2, folder / f"said_{n}"
+        with open(words, "w", encoding="utf-8") as said:
+            process = started_on(ranks, mark, WINDOW, out, said, "--no-report")
+        wait_for(lambda: (out / "history.csv").exists() and (out / "history.csv").read_bytes().count(b"\n") >= 2, process)
+        time.sleep(pick.uniform(0.0, 0.1 * seconds))
+        begin = time.time()
+        os.kill(processes_of(mark)[ranks - 1], pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP]))
+        summary, took = require_stopped(process, begin, out, words)
+        assert summary["time"]["end_s"] == 0.0, "the window was made to its end all the same"
+        job(WINDOW, out)
+        assert history(out) == expected, f"{out}: another history after a window that was given up"
+        slowest = max(slowest, took)
+    return f"{count} windows of {seconds:.1f} s given up, the slowest took {slowest:.1f} s"
+
+
+def signals_at_lock(folder, count, pick):
+    """A job that waits for the heartbeat of another computer's is asked to stop: it ends with 5 and leaves the folder to that one."""
+    slowest = 0.0
+    for n in range(count):
+        out, mark, ranks, words = folder / f"lock_{n}", f"{os.getpid()}_{n}", 1 + n % 2, folder / f"said_{n}"
+        out.mkdir()
+        lock = "host = elsewhere\nprocess = 7\nstarted = 1\nprocesses = another\nheartbeat = 000000000001\n"
+        (out / "run.lock").write_text(lock)
+        with open(words, "w", encoding="utf-8") as said:
+            process = started_on(ranks, mark, SCENE, out, said, "--no-report", "--restart")
+        wait_for(lambda: "looking for its heartbeat" in text_of(words), process)
+        time.sleep(pick.uniform(0.0, 1.0))
+        begin = time.time()
+        os.kill(processes_of(mark)[ranks - 1], pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP]))
+        try:
+            process.wait(120)
+        finally:
+            process.kill()
+        took = time.time() - begin
+        assert process.returncode == 5, f"exit code {process.returncode}\n{words.read_text()[-2000:]}"
+        assert took < 10.0, f"{took:.1f} s to the end"
+        assert "stopped on request" in words.read_text(), words.read_text()
+        assert [(f.name, f.read_text()) for f in out.iterdir()] == [("run.lock", lock)], "the other job's folder is not as it was"
+        slowest = max(slowest, took)
+    return f"{count} requests, the slowest took {slowest:.1f} s"
 
 
 def main():
-    fault = {f.__name__: f for f in (kill, job_script, flip, truncate, full_disk, two_jobs, signals, stopped_rank)}[sys.argv[2]]
+    fault = {f.__name__: f for f in (kill, job_script, flip, truncate, full_disk, two_jobs, signals, signals_at_start, signals_in_window, signals_at_lock, stopped_rank, stopped_at_start, failed_rank)}[sys.argv[2]]
     count = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     seed = int(sys.argv[4]) if len(sys.argv) > 4 else random.randrange(10**6)
     os.environ["OMP_NUM_THREADS"] = "1"

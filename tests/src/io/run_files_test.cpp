@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/io/atomic_file.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/collective.hpp"
@@ -134,6 +135,36 @@ TEST_CASE("a summary holds what it was given, and null for what is not a number"
   CHECK(json["build"]["commit"] == io::build_info().commit);
 }
 
+TEST_CASE("a rank that fails alone says so in the summary, unless the first rank has", "[io][faults][fast]") {
+  const test::Scratch folder("summary");
+  const fs::path file = folder / "summary.json";
+  const auto with_code = [](int code) {
+    io::Summary summary;
+    summary.exit_code = code;
+    return summary;
+  };
+  const auto code = [&] { return nlohmann::json::parse(io::read_file(file))["exit_code"]; };
+  io::SummaryOfOthers(file).write_instead(with_code(4), 3);
+  CHECK_FALSE(fs::exists(file));  // another computer's disk
+
+  io::write_summary_of_start(file, {});
+  const io::SummaryOfOthers begun(file);
+  begun.write_instead(with_code(4), 3);
+  CHECK(code() == 4);
+
+  io::write_summary_of_start(file, {});
+  const io::SummaryOfOthers first_rank_knows(file);
+  io::write_summary(file, with_code(3));
+  first_rank_knows.write_instead(with_code(4), 3);
+  CHECK(code() == 3);
+
+  io::write_summary(file, with_code(5));  // of the run that this one goes on with
+  const io::SummaryOfOthers restarted(file);
+  restarted.write_instead(with_code(4), 3);
+  CHECK(code() == 4);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+}
+
 TEST_CASE("the build knows its commit, flags and libraries", "[io][fast]") {
   const io::BuildInfo& build = io::build_info();
   CHECK(build.commit.size() >= 7);
@@ -205,6 +236,7 @@ TEST_CASE("what fails on one rank fails on all, with its words", "[io][mpi2]") {
   CHECK_THROWS_AS(fail_on(1), io::MachineFailure);
   CHECK_NOTHROW(fail_on(2));
   CHECK_THROWS_AS(io::on_root(MPI_COMM_WORLD, [] { throw io::InputError("x"); }), io::InputError);
+  CHECK_THROWS_AS(io::on_root(MPI_COMM_WORLD, [] { throw runtime::StopAsked(); }), runtime::StopAsked);
   CHECK_THROWS_WITH(io::together(MPI_COMM_WORLD, [] { throw std::logic_error("both"); }), "both");
   CHECK(io::from_root(MPI_COMM_WORLD, rank == 0 ? "root" : "other, longer") == "root");
 }
