@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/sph/kernel_wendland.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/point_cells.hpp"
 
 namespace spindrift::sph {
@@ -29,6 +30,7 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
   for (int turn = 0; turn < turns; ++turn) {
     const PointCells<dim> cells(all, support);
     for (std::size_t i = 0; i < moving; ++i) {
+      if (i % 4096 == 0) runtime::StopRequest::give_up_if_asked();
       std::array<double, dim> way{};
       cells.for_near(all[i], [&](std::uint32_t j) {
         std::array<double, dim> x;

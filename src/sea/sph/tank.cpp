@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "kernels/base/random.hpp"
+#include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/boundary.hpp"
 #include "src/sea/sph/lattice.hpp"
 #include "src/sea/sph/mesh_fill.hpp"
@@ -118,6 +119,7 @@ class Layout {
     double lowest = 1e300, highest = plan_.top;
     std::vector<Moved> aside;
     visit([&](std::size_t id, const Seed<dim>& seed) {
+      if (count_ % 65536 == 0) runtime::StopRequest::give_up_if_asked();
       const bool water = seed.owner == water_owner;
       ++count_, result.water += water, result.walls += seed.owner == wall_owner;
       if (seed.owner > wall_owner) highest = std::max(highest, seed.position[dim - 1]);
