@@ -32,8 +32,9 @@ aero.grid = {cells_round = 28, cells_layers = 4, cells_span = 8, first_cell_chor
 aero.flow = {viscous = "none", cfl_max = 100.0, max_pseudo_steps = 3}
 output.expected = []
 ''' % (INPUTS / "leble_barakos/case3_demo.toml")
-# Ten seconds of making a grid, and a window of many steps of bodies.
+# Ten seconds of making a grid, half a minute of placing particles, and a window of many steps of bodies.
 GRID = [INPUTS / "leble_barakos/rotor_demo.toml", "--set", "aero.grid.resolution=3.5"]
+SEA = [INPUTS / "leble_barakos/case1_paper.toml"]
 WINDOW = [INPUTS / "leble_barakos/case1_engineering.toml", "--set", "time.end_s=40.0", "--set", "time.window_s=40.0", "--set", "time.step_s=0.0005"]
 QUIET = ["--no-report", "--quiet"]
 
@@ -453,16 +454,16 @@ def require_stopped(process, begin, out, said):
 
 
 def signals_at_start(folder, count, pick):
-    """A large grid that is being made is given up: with a summary, and before it is done. A signal to one rank is enough."""
+    """A large grid that is being made, and a large sea, are given up: with a summary, and before they are done. A signal to one rank is enough."""
     slowest = 0.0
     for n in range(count):
-        out, mark, ranks, words = folder / f"signal_{n}", f"{os.getpid()}_{n}", 1 + n % 2, folder / f"said_{n}"
+        out, mark, ranks, words = folder / f"signal_{n}", f"{os.getpid()}_{n}", 2 if n % 4 < 2 else 1, folder / f"said_{n}"
         with open(words, "w", encoding="utf-8") as said:
-            process = started_on(ranks, mark, GRID, out, said, "--no-report")
+            process = started_on(ranks, mark, SEA if n % 2 else GRID, out, said, "--no-report")
         wait_for(lambda: "rank" in text_of(out / "log.txt"), process)
         time.sleep(pick.uniform(0.0, 1.0))
         begin = time.time()
-        if n // 2 % 2:
+        if n // 4 % 2:
             (out / "stop").write_text("")
         else:
             os.kill(processes_of(mark)[ranks - 1], pick.choice([signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGUSR2, signal.SIGHUP]))
