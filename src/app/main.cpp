@@ -39,6 +39,8 @@ void end_together(const runtime::MpiEnvironment& mpi, const std::string& refusal
   const std::optional<int> first = mpi.smallest_of_all(own, refuses ? longest_s : for_ever_s);
   if (refuses && first.value_or(own) == own) spdlog::error("{}", refusal);
   if (!first) mpi.abort(app::bad_input);
+  // Once more: a rank may have come long ago and stand still since. MPI's end waits for it when nobody watches any more.
+  (void)mpi.smallest_of_all(own, for_ever_s);
 }
 
 /// Runs a command; says what failed, to a person, and returns the exit code. Why it refused its input is in `refusal`,
