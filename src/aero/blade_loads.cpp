@@ -71,7 +71,7 @@ FlexibleBlades::Bending BladeLoads::settled(const BladesAt& at, std::span<const 
     if (change <= enough * size) return bending;
     left = change / size;
   }
-  constexpr double close = 1e-6;
+  constexpr double close = 1e-3;
   if (!(left <= close))
     throw NumericalFailure(
         fmt::format("t = {:.4g} s: blades find no rest under the air: after {} passes their bending changes by "

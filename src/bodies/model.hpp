@@ -83,6 +83,8 @@ struct Onset {
   std::string name;
   std::function<bool(std::span<const Motion>)> acts;  ///< whether it does where the bodies are so; must not allocate
   double rate = 0.0;                                  ///< of the fastest motion while it acts, |eigenvalue| [1/s]
+  /// It acts where the run begins, so the step has been chosen for it: only steps in which it sets in or ends are made in pieces.
+  bool from_start = false;
 };
 
 }  // namespace spindrift::bodies

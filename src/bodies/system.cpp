@@ -273,7 +273,7 @@ System::Work::Needed System::Work::pieces_met(double length) const {
   Needed most;
   const Turning turning = turning_in_a_piece(integrator);
   for (std::size_t k = 0; k < onsets.size(); ++k) {
-    if (!met[k].acting) continue;
+    if (!met[k].acting || (onsets[k].from_start && !met[k].idle)) continue;
     const double pieces = std::ceil(length * onsets[k].rate / (met[k].idle ? turning.at_onset : turning.throughout));
     if (pieces > most.pieces) most = {pieces, int(k)};
   }

@@ -11,6 +11,7 @@
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/campbell.hpp"
+#include "src/moorings/model.hpp"
 
 namespace spindrift::coupling {
 
@@ -23,6 +24,7 @@ void require_followed_lines(FloatingSystem& floating) {
     if (pieces <= bodies::System::most_pieces) continue;
     const auto line = std::ranges::find_if(floating.scenario().moorings, [&](const auto& l) { return l.name == onset.name; });
     const moorings::LineOptions& o = line->options;
+    if (moorings::line_models().named(o.model).hangs) continue;  // it may sag for ever, however little it stretches
     const char* key = o.stiffness_N_m ? ".stiffness_N_m" : o.axial_stiffness_N ? ".axial_stiffness_N" : ".model";
     refuse(floating, "moorings." + onset.name + key,
            o.stiffness_N_m       ? fmt::format("{:g}", *o.stiffness_N_m)

@@ -12,8 +12,8 @@
 
 namespace spindrift::coupling {
 
-/// Throws scene::SceneError where a line, when it snaps taut, needs more pieces of the scene's step than are made
-/// (bodies::System::watch). @pre the start has been made.
+/// Throws scene::SceneError where a line without weight, when it snaps taut, needs more pieces of the scene's step than are made
+/// (bodies::System::watch); one that sags is named when it does. @pre the start has been made.
 void require_followed_lines(FloatingSystem& floating);
 
 /// Throws scene::SceneError where the scheme is loose and the window beyond its limit, or the blades' air too heavy for any,

@@ -37,12 +37,14 @@ std::vector<bodies::Onset> line_onsets(FloatingSystem& floating, const bodies::B
     const double mobility = largest_mobility(floating, state, lines.chord(l, state.motions));
     const double rate = std::max(std::sqrt(taut->stiffness_N_m * mobility), taut->damping_N_s_m * mobility);
     if (rate == 0.0) continue;  // its ends cannot move
-    onsets.push_back({lines.name(l),
-                      [&lines, l, length = taut->chord_m](std::span<const Motion> motions) {
-                        const moorings::Moorings::Chord now = lines.chord(l, motions);
-                        return (now.fairlead - now.anchor).squaredNorm() > length * length;
-                      },
-                      rate});
+    bodies::Onset onset{lines.name(l),
+                        [&lines, l, length = taut->chord_m](std::span<const Motion> motions) {
+                          const moorings::Moorings::Chord now = lines.chord(l, motions);
+                          return (now.fairlead - now.anchor).squaredNorm() > length * length;
+                        },
+                        rate};
+    onset.from_start = onset.acts(state.motions);
+    onsets.push_back(std::move(onset));
   }
   return onsets;
 }

@@ -16,7 +16,7 @@ PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
 TABLE = tomllib.loads((ROOT / "tests/faults/divergence.toml").read_text(encoding="utf-8"))
 SCENES = TABLE.pop("scene")
 # What every reason of a part says, besides the time.
-NAMED = {"air": "aero: ", "bodies": "limit", "lines": "the step is beyond", "coupling": "window", "sea": "sea: "}
+NAMED = {"air": "aero: ", "bodies": "limit", "lines": "steps of", "coupling": "window", "sea": "sea: "}
 
 
 def run(case, out, *more):

@@ -56,6 +56,25 @@ TEST_CASE("a step that meets nothing that is watched is the step it was", "[bodi
   CHECK((a == b));
 }
 
+TEST_CASE("a spring that acts from the start has the scene's steps until it lets go", "[bodies][fast]") {
+  const auto pushed = [](std::vector<Onset> onsets) {
+    std::vector<Body> bodies{examples::body("weight", weight_kg, {100, 100, 100}, {0, 0, -drop - 1e-3})};
+    const auto push = [](double, std::span<const Motion> m, std::span<Wrench> w) {
+      w[0].force.z() += 1e7 * std::max(0.0, -drop - m[0].position.z());
+    };
+    System system(bodies, {}, {gravity_source(bodies, pull), {"spring", push, {}}});
+    system.watch(std::move(onsets));
+    BodiesState state = examples::start(system);
+    examples::run(system, state, step_s, 10);
+    return state.motions[0].position.z();
+  };
+  Onset onset{"spring", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, 100.0};
+  const double without = pushed({}), in_pieces = pushed({onset});
+  onset.from_start = true;
+  CHECK(pushed({onset}) == without);
+  CHECK(in_pieces != without);
+}
+
 TEST_CASE("a spring that no number of pieces follows is named, and the state stays", "[bodies][fast]") {
   System system = weight_on(weight_kg * 1e14, Integrator::rk4);
   BodiesState state = examples::start(system);
