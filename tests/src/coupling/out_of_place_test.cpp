@@ -41,7 +41,7 @@ TEST_CASE("a rotor is named where its lowest blade is in the water", "[coupling]
 TEST_CASE("a blade that bends by more than a third of its length is named", "[coupling][fast]") {
   const auto found_with = [](const char* structure) {
     FloatingSystem floating(test::scenario("base = \"inputs/leble_barakos/flexible_blades.toml\"\n",
-                                           {std::string("rotor.blade_structure='") + structure + "'"}));
+                                           {std::string("rotor.blade_structure='" SPINDRIFT_SOURCE_DIR "/") + structure + "'"}));
     return out_of_place(floating, make_start(floating).state);
   };
   CHECK(!found_with("inputs/turbines/dtu_10mw/blade_structure.csv"));
