@@ -39,8 +39,8 @@ class StaticLine {
   virtual ~StaticLine() = default;
   /// `span` = fairlead - anchor [m], `rate` = its time derivative [m/s].
   virtual LineForces forces(const Eigen::Vector3d& span, const Eigen::Vector3d& rate) const = 0;
-  /// Nothing for a line that never snaps.
-  virtual std::optional<TautLine> taut() const = 0;
+  /// Nothing for a line that never snaps: steps of the bodies do not look out for it.
+  virtual std::optional<TautLine> taut() const { return std::nullopt; }
 };
 
 /// Of a line of kernels/mooring.
