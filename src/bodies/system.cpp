@@ -28,6 +28,9 @@ constexpr Turning turning_in_a_piece(Integrator integrator) {
   return integrator == Integrator::rk4 ? Turning{0.1, 0.5} : Turning{0.05, 0.05};
 }
 
+/// Of a step of so many seconds.
+double pieces_of(double step, double rate, double turning) { return std::max(1.0, std::ceil(step * rate / turning)); }
+
 /// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a heavier body; the body
 /// itself where it has none.
 std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> joints) {
@@ -274,7 +277,7 @@ System::Work::Needed System::Work::pieces_met(double length) const {
   const Turning turning = turning_in_a_piece(integrator);
   for (std::size_t k = 0; k < onsets.size(); ++k) {
     if (!met[k].acting || (onsets[k].from_start && !met[k].idle)) continue;
-    const double pieces = std::ceil(length * onsets[k].rate / (met[k].idle ? turning.at_onset : turning.throughout));
+    const double pieces = pieces_of(length, onsets[k].rate, met[k].idle ? turning.at_onset : turning.throughout);
     if (pieces > most.pieces) most = {pieces, int(k)};
   }
   return most;
@@ -371,7 +374,7 @@ void System::watch(std::vector<Onset> onsets) {
 }
 std::span<const Onset> System::watched() const { return w_->onsets; }
 double System::pieces_at(const Onset& onset, double step_s) const {
-  return std::max(1.0, std::ceil(step_s * onset.rate / turning_in_a_piece(w_->integrator).at_onset));
+  return pieces_of(step_s, onset.rate, turning_in_a_piece(w_->integrator).at_onset);
 }
 
 void System::set_loads_from_outside(bool outside) {

@@ -93,6 +93,12 @@ void require_bending_blades(const FloatingSystem& floating) {
       refuse(floating, "time.step_s", fmt::format("{}", step),
              fmt::format("is too long for blades whose fastest mode has {:.3g} Hz ({}.blade_structure): at most {:.3g} s",
                          fastest / (2.0 * pi), s.rotor_section, per_step / fastest));
+    if (const double sag = blades->sag(s.environment.gravity_m_s2), most = floating.rotors()[n].radius / 3.0; sag > most)
+      refuse(
+          floating, s.rotor_section + ".blade_structure", "",
+          fmt::format("a level blade sinks by {:.3g} m at its tip under its own weight, and its modes hold for bending of up to "
+                      "a third of its length, {:.3g} m: look at the units, flap_N_m2 and edge_N_m2 in N m2, mass_kg_m in kg/m",
+                      sag, most));
     BladesCarried& all = carried[s.rotor.body];
     all.blades += blades->blades(), all.mass += blades->blades() * blades->mass();
     for (const auto& body : s.bodies)
@@ -106,7 +112,6 @@ void require_bending_blades(const FloatingSystem& floating) {
 scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
   require_stable(floating, stability);
   require_followed_lines(floating);
-  require_bending_blades(floating);
   return require_stable_coupling(floating, state, stability.linearisation);
 }
 

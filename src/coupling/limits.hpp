@@ -21,11 +21,12 @@ void require_followed_lines(FloatingSystem& floating);
 scene::Doubts require_stable_coupling(FloatingSystem& floating, const bodies::BodiesState& state,
                                       const bodies::Linearisation& linearisation);
 
-/// Throws scene::SceneError where the blades that bend are faster than the bodies' step can follow, or heavier than their body.
+/// Throws scene::SceneError where the blades that bend are faster than the bodies' step can follow, heavier than their body, or
+/// sink too far under their own weight. Called before a start is sought, which such blades may not have.
 void require_bending_blades(const FloatingSystem& floating);
 
-/// All limits: of the linearised start (start.hpp), of lines and of the coupling. What `check` and `run` refuse, and what is
-/// accepted beyond them.
+/// All limits of a start: of what is linearised there (start.hpp), of lines and of the coupling. What `check` and `run` refuse,
+/// and what is accepted beyond them.
 scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability);
 
 }  // namespace spindrift::coupling

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/bodies/mode_names.hpp"
+#include "src/coupling/limits.hpp"
 #include "src/coupling/onsets.hpp"
 
 namespace spindrift::coupling {
@@ -47,24 +48,8 @@ void move_to_start(FloatingSystem& floating, bodies::BodiesState& state) {
   }
 }
 
-/// Before the equilibrium is sought, which blades without strength do not have.
-void require_blades_that_hold(const FloatingSystem& floating) {
-  const std::vector<Scenario> each = by_rotor(floating.scenario());
-  for (std::size_t n = 0; n < each.size(); ++n) {
-    const aero::FlexibleBlades* blades = floating.rotors()[n].loads.flexible();
-    if (!blades) continue;
-    const double sag = blades->sag(each[n].environment.gravity_m_s2), most = floating.rotors()[n].radius / 3.0;
-    if (sag > most)
-      refuse(
-          floating, each[n].rotor_section + ".blade_structure", "",
-          fmt::format("a level blade sinks by {:.3g} m at its tip under its own weight, and its modes hold for bending of up to "
-                      "a third of its length, {:.3g} m: look at the units, flap_N_m2 and edge_N_m2 in N m2, mass_kg_m in kg/m",
-                      sag, most));
-  }
-}
-
 Start start_without_memory(FloatingSystem& floating) {
-  require_blades_that_hold(floating);
+  require_bending_blades(floating);
   if (floating.multibody().bodies().empty()) return {};  // water alone
   bodies::Assembly assembly = floating.multibody().assemble();
   if (!assembly.contradiction.empty()) refuse(floating, "joints", "", assembly.contradiction);

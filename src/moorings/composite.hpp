@@ -17,6 +17,6 @@ struct CompositeParts {
 };
 CompositeParts composite_parts(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
 
-LineComposite composite_line(const LineOptions& line, double water_density_kg_m3, double gravity_m_s2);
+LineComposite composite_line(const CompositeParts& parts, const LineOptions& line);
 
 }  // namespace spindrift::moorings

@@ -166,8 +166,7 @@ void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOption
         doubt_hung(doubts, at + ".clumps", clump.mass_kg, clump.volume_m3, fmt::format(" at {:.4g} m", clump.distance_m), around);
   if (!light || line.sections.empty() || around.depth_m < 0.0) return;
   const CompositeParts parts = composite_parts(line, around.water_density_kg_m3, around.gravity_m_s2);
-  const std::vector<double> heights =
-      LineComposite(parts.sections, parts.hung, line.bed_friction, line.bed_contact).joint_heights(line.span());
+  const std::vector<double> heights = composite_line(parts, line).joint_heights(line.span());
   for (std::size_t joint = 0; joint < heights.size(); ++joint)
     if (const double z = line.anchor_m->z() + heights[joint]; parts.hung[joint] < 0.0 && z > 0.0)
       doubts.push_back({at + ".clumps",

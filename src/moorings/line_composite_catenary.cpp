@@ -34,8 +34,7 @@ CompositeParts composite_parts(const LineOptions& o, double water_density, doubl
   return parts;
 }
 
-LineComposite composite_line(const LineOptions& o, double water_density, double gravity) {
-  const CompositeParts parts = composite_parts(o, water_density, gravity);
+LineComposite composite_line(const CompositeParts& parts, const LineOptions& o) {
   return LineComposite(parts.sections, parts.hung, o.bed_friction, o.bed_contact);
 }
 
@@ -49,8 +48,7 @@ extern const LineModel composite_catenary{
       double weight = 0.0;
       for (const CatenarySection& s : parts.sections) weight += s.weight_per_m * s.length;
       for (const double hung : parts.hung) weight += std::abs(hung);
-      return static_line(composite_line(o, e.water_density_kg_m3, e.gravity_m_s2),
-                         taut_from_sag(o.length_m(), weight, o.series_stiffness_N_m()));
+      return static_line(composite_line(parts, o), taut_from_sag(o.length_m(), weight, o.series_stiffness_N_m()));
     }};
 
 }  // namespace spindrift::moorings

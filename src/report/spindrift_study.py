@@ -349,8 +349,10 @@ def main():
     runs = Runs(folder, plan)
     wanted, left_out = print_plan(plan, runs)
 
+    history = study_histories.reader(folder)
+
     def judge():
-        return study_judge.Judge(plan, {k: v for k, v in runs.results.items() if k in names}, study_histories.reader(folder))
+        return study_judge.Judge(plan, {k: v for k, v in runs.results.items() if k in names}, history)
 
     names = {r["name"] for _, r in wanted}
     finished = runs.run(wanted)
@@ -361,16 +363,16 @@ def main():
         left_out += beyond
         names |= {r["name"] for _, r in more}
         finished = runs.run(more)
-    while finished and not runs.stopping and (rivals := judge().to_time(plan["options"]["repeats"])):
-        if not all(runs.time_again(rung) for rung in rivals):
-            break
+    if finished:
+        so_far = judge()
+        while (rivals := so_far.to_time(plan["options"]["repeats"])) and all(runs.time_again(rung) for rung in rivals):
+            pass
     if runs.stopping:
         say(f"stopped on request: {len(runs.results)} runs are done; the same command goes on")
         return STOPPED
     result = judge().result(left_out)
     if plan.get("load_cases"):
-        result["load_cases"] = study_load_cases.LoadCases(plan, {k: v for k, v in runs.results.items() if k in names},
-                                                          study_histories.reader(folder)).result()
+        result["load_cases"] = study_load_cases.LoadCases(plan, {k: v for k, v in runs.results.items() if k in names}, history).result()
         write_whole(folder / "load_cases.csv", study_load_cases.as_csv(result["load_cases"]))
     write_whole(folder / "study.json", json.dumps(result, indent=1))
     print_result(result, folder)

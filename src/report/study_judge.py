@@ -264,6 +264,7 @@ class Judge:
     def to_time(self, repeats):
         """Rungs that are to be timed once more, in turns. Those whose cost decides the answer, the good ones that cost less than twice the cheapest, are timed `repeats` times;
         then those not much dearer than the cheapest until it is known which are."""
+        self.costs = {r["name"]: self._cost(r) for r in self.rungs}  # of all timings by now
         good = self.good()
         if len(good) < 2:
             return []

@@ -169,7 +169,7 @@ TEST_CASE("a line of sections loads its body as the catenary of one does, and a 
   CHECK(b.memory_size() == 0);
   row.bed_contact = false, row.bed_friction = 0.0, row.clumps = {{300.0, 2e3, 0.5}};  // all of its weight is at its two ends
   hung.add("line", row);
-  const LineForces f = composite_line(row, 1025.0, 9.80665).forces(row.span(), Vector3d::Zero());
+  const LineForces f = composite_line(composite_parts(row, 1025.0, 9.80665), row).forces(row.span(), Vector3d::Zero());
   CHECK(f.on_fairlead.z() + f.on_anchor.z() == Approx(-(400.0 * 3e3 + 9.80665 * (2e3 - 0.5 * 1025.0))));
   CHECK((loads(hung, start())[0].force - f.on_fairlead).norm() < 1e-6);
 }
