@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "kernels/base/constants.hpp"
@@ -36,6 +37,13 @@ WindTable read_wind_table(const std::string& path) {
   };
   for (std::size_t i = 0; i < file.rows(); ++i)
     if (file["speed_m_s"][i] < 0.0) file.fail(int(i), "speed_m_s must not be negative");
+  if (file.has("direction_deg"))  // straight lines know no full circle
+    for (std::size_t i = 1; i < file.rows(); ++i)
+      if (const double from = file["direction_deg"][i - 1], to = file["direction_deg"][i]; std::abs(to - from) > 180.0)
+        file.fail(int(i),
+                  fmt::format("direction_deg goes from {:g} to {:g}, by more than half a circle: write {:g} to go the short "
+                              "way, or rows between to go the long one",
+                              from, to, to + std::copysign(360.0 * std::round(std::abs(from - to) / 360.0), from - to)));
   return {column("time_s", 1.0), column("speed_m_s", 1.0), column("direction_deg", radians_per_degree),
           column("vertical_m_s", 1.0)};
 }

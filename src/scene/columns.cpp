@@ -116,6 +116,10 @@ Columns read_columns(const std::string& path) {
     if (table.names.empty()) {
       require_commas(path, line, content);
       table.names.assign(cells.begin(), cells.end());
+      for (std::size_t c = 1; c < table.names.size(); ++c)
+        if (std::find(table.names.begin(), table.names.begin() + std::ptrdiff_t(c), table.names[c]) !=
+            table.names.begin() + std::ptrdiff_t(c))
+          fail_at(path, line, "", fmt::format("has two columns \"{}\": which of them holds?", table.names[c]));
       table.values.resize(cells.size());
     } else {
       add_row(table, cells, line);

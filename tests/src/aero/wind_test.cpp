@@ -13,6 +13,7 @@
 
 using namespace spindrift;
 using namespace spindrift::aero;
+using Catch::Contains;
 
 namespace {
 const Eigen::Vector3d hub(3.0, -2.0, 119.0);
@@ -72,6 +73,11 @@ TEST_CASE("a table in time is joined by straight lines and begins the wind", "[a
   CHECK(wind.at(5.0, hub).head<2>().norm() == Approx(10.0));
   CHECK(direction(wind, 5.0) == Approx(10.0));
   CHECK(wind.at(99.0, hub).head<2>().norm() == Approx(12.0));
+
+  std::ofstream(path) << "time_s,speed_m_s,direction_deg\n0,8,359\n10,8,1\n";  // across north
+  CHECK_THROWS_WITH(wind_of(options, site), Contains(":3: direction_deg goes from 359 to 1") && Contains("write 361"));
+  std::ofstream(path) << "time_s,speed_m_s,direction_deg\n0,8,359\n10,8,361\n";
+  CHECK(direction(wind_of(options, site), 5.0) == Approx(0.0).margin(1e-9));
   std::filesystem::remove(path);
 }
 

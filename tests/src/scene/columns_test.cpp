@@ -50,15 +50,16 @@ TEST_CASE("a data file that is not a table is refused where it goes wrong", "[sc
   struct Case {
     const char *text, *message;
   };
-  const auto c = GENERATE(Case{"a,b\n1,2\n3\n", ":3: has 1 values where there are 2 columns (a, b)"},
-                          Case{"a,b\n1,two\n", ":2 = \"two\""}, Case{"a,b\n1,\n", "must be a finite number (column b)"},
-                          Case{"a\nnan\n", "must be a finite number"}, Case{"a\n1e999\n", "must be a finite number"},
-                          Case{"# nothing\n", "holds no table"}, Case{"a;b\n1;2\n", ":1: has semicolons between its columns"},
-                          Case{"# x\na\tb\n1\t2\n", ":2: has tabs between"}, Case{"a b\n1 2\n", "has blanks between"},
-                          Case{"a,b\n0,5,1,5\n", ":2: has 4 values where there are 2 columns (a, b); decimal commas?"},
-                          Case{"\xFF\xFE"
-                               "a,b",
-                               "UTF-16"});
+  const auto c =
+      GENERATE(Case{"a,b\n1,2\n3\n", ":3: has 1 values where there are 2 columns (a, b)"}, Case{"a,b\n1,two\n", ":2 = \"two\""},
+               Case{"a,b\n1,\n", "must be a finite number (column b)"}, Case{"a\nnan\n", "must be a finite number"},
+               Case{"a\n1e999\n", "must be a finite number"}, Case{"# nothing\n", "holds no table"},
+               Case{"a;b\n1;2\n", ":1: has semicolons between its columns"}, Case{"# x\na\tb\n1\t2\n", ":2: has tabs between"},
+               Case{"a b\n1 2\n", "has blanks between"}, Case{"a,b,a\n1,2,3\n", ":1: has two columns \"a\""},
+               Case{"a,b\n0,5,1,5\n", ":2: has 4 values where there are 2 columns (a, b); decimal commas?"},
+               Case{"\xFF\xFE"
+                    "a,b",
+                    "UTF-16"});
   CHECK_THROWS_WITH(read_columns(file_with(c.text)), Contains(c.message));
   CHECK_THROWS_AS(read_columns("/no/such/file.csv"), SceneError);
 }
