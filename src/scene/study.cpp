@@ -321,6 +321,12 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
       if (metric.target) needs("target");
       if (metric.relative) needs("relative");
     }
+  if (study.reference && !study.reference->limit.empty())
+    for (const auto& [name, metric] : study.metrics)
+      if (of_two_histories(metric.measure))
+        doc.problem(fmt::format("metrics.{}.measure", name),
+                    "rms and max compare two histories, and reference.limit is that of a number; take mean, peak, amplitude or "
+                    "another one");
   if (study.load_cases) check_load_cases(doc, study);
   check_runs(doc, study);
   doc.finish();

@@ -84,6 +84,11 @@ TEST_CASE("what is wrong with a study is told like what is wrong with a scene", 
         file + ":5: reference.variant = \"fime\": is no run of this study; did you mean 'fine'?");
   CHECK(complaint(dir, "[metrics.m]\ncolumn = \"x\"\n") ==
         file + ":3: metrics.m.measure: rms and max compare two histories and need a [reference]; mean and the others do not");
+  CHECK(
+      complaint(dir, "[axes.h]\nkey = \"x.h\"\nvalues = [1, 2, 3]\n[reference]\nlimit = \"h\"\n[metrics.m]\ncolumn = \"x\"\n") ==
+      file +
+          ":8: metrics.m.measure: rms and max compare two histories, and reference.limit is that of a number; take mean, "
+          "peak, amplitude or another one");
   CHECK(complaint(dir, "[metrics.m]\ncolumn = \"x\"\nmeasure = \"mean\"\ntarget = 1.0\n") ==
         file + ":6: metrics.m.target = 1.0: needs a [reference] to measure against");
   CHECK(complaint(dir, "[axes.a]\nkey = \"x.y\"\nvalues = [\"a\", \"a\"]\n") ==
