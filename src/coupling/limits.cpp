@@ -11,6 +11,7 @@
 #include "kernels/base/constants.hpp"
 #include "kernels/coupling/staggered.hpp"
 #include "src/coupling/campbell.hpp"
+#include "src/coupling/out_of_place.hpp"
 #include "src/moorings/model.hpp"
 
 namespace spindrift::coupling {
@@ -110,6 +111,7 @@ void require_bending_blades(const FloatingSystem& floating) {
 }
 
 scene::Doubts require_limits(FloatingSystem& floating, const bodies::BodiesState& state, const Stability& stability) {
+  require_room(floating, state);
   require_stable(floating, stability);
   require_followed_lines(floating);
   return require_stable_coupling(floating, state, stability.linearisation);

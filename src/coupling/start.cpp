@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/rigid/rotation.hpp"
 #include "src/bodies/mode_names.hpp"
 #include "src/coupling/limits.hpp"
 #include "src/coupling/onsets.hpp"
+#include "src/coupling/recorder.hpp"
 
 namespace spindrift::coupling {
 
@@ -24,6 +26,29 @@ void require_kept(const FloatingSystem& floating, std::string key, const Eigen::
       fmt::format("is not possible with the joints of this body, which leave {} of it: give all bodies that they tie velocities "
                   "and spins that go together, or leave it out",
                   words(found)));
+}
+
+/// A place or an attitude that the joints do not allow: a float that is fixed to the earth, a rotor lifted off its tower. What
+/// the scene does not give follows from the rest.
+void require_moved(const FloatingSystem& floating, std::size_t b, const Motion& found) {
+  constexpr double relative = 1e-3;  // what is written with four digits
+  const auto& [name, o] = floating.scenario().bodies[b];
+  const ReferenceMotion left =
+      reference_motion(found, described_motion(o), floating.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  const auto refuse_lost = [&](const std::string& key, const Eigen::Vector3d& given, const Eigen::Vector3d& is) {
+    const auto words = [](const Eigen::Vector3d& v) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", v.x(), v.y(), v.z()); };
+    refuse(
+        floating, "bodies." + name + key, words(given),
+        fmt::format("is not possible with the joints of this body, which leave {} of it: displace and turn all bodies that they "
+                    "tie together, or leave it out",
+                    words(is)));
+  };
+  if ((left.displacement - o.displacement_m).norm() > relative * o.displacement_m.norm() && !o.displacement_m.isZero(0.0))
+    refuse_lost(".displacement_m", o.displacement_m, left.displacement);
+  const Eigen::Quaterniond given = attitude(o.rotation);
+  if (given.angularDistance(found.attitude) > relative * given.angularDistance(Eigen::Quaterniond::Identity()) &&
+      !o.rotation.isZero(0.0))
+    refuse_lost(".rotation_deg", o.rotation / radians_per_degree, left.angles / radians_per_degree);
 }
 
 /// Moves the bodies from where the scene describes them to how they start, as far as their joints allow.
@@ -43,6 +68,7 @@ void move_to_start(FloatingSystem& floating, bodies::BodiesState& state) {
   state = assembly.state;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto& [name, o] = bodies[b];
+    require_moved(floating, b, state.motions[b]);
     require_kept(floating, "bodies." + name + ".velocity_m_s", o.velocity_m_s, state.motions[b].velocity);
     require_kept(floating, "bodies." + name + ".omega_rad_s", o.omega_rad_s, state.motions[b].omega_earth());
   }

@@ -50,3 +50,59 @@ TEST_CASE("a blade that bends by more than a third of its length is named", "[co
   CHECK_THAT(found->what(), Contains("blade") && Contains("a third of its length"));
   CHECK(found->place == "rotor");
 }
+
+TEST_CASE("bodies that begin in each other or in the tank are refused by name, unless a joint ties them there",
+          "[coupling][fast]") {
+  const std::string tank = R"(
+[time]
+end_s = 1.0
+window_s = 0.1
+[environment]
+water_depth_m = 0.6
+[sea]
+model = "sph"
+[sea.particles]
+dimensions = "2"
+spacing_m = 0.05
+[sea.tank]
+x_m = [-1.5, 1.5]
+top_m = 0.4
+[bodies.box]
+mass_kg = 80.0
+inertia_kg_m2 = [2.1, 2.1, 2.1]
+centre_m = [0.0, 0.0, 0.0]
+boxes = [{name = "hull", centre_m = [0.0, 0.0, 0.0], size_m = [0.4, 1.0, 0.4]}]
+)";
+  const auto room = [&](std::vector<std::string> settings, const std::string& more = "") {
+    FloatingSystem floating(test::scenario(tank + more, settings));
+    require_room(floating, make_start(floating).state);
+  };
+  CHECK_NOTHROW(room({}));
+  const std::string slope = "sea.tank.bed_m=[[-1.5,-0.6],[-0.3,-0.6],[0.3,0.1]]",
+                    block = "sea.obstacles=[{low_m=[0.0,-1.0,-0.6],high_m=[0.3,1.0,-0.1]}]";
+  CHECK_THROWS_WITH(room({slope}), Contains("bodies.box") && Contains("deep in the bed"));
+  CHECK_THROWS_WITH(room({block}), Contains("deep in sea.obstacles[0]"));
+  const std::string held = R"(
+[joints.held]
+type = "fixed"
+bodies = ["earth", "box"]
+point_m = [0.0, 0.0, 0.0]
+)";
+  CHECK_NOTHROW(room({slope}, held));
+  const std::string barge = R"(
+[bodies.barge]
+mass_kg = 80.0
+inertia_kg_m2 = [2.1, 2.1, 2.1]
+centre_m = [0.3, 0.0, 0.0]
+boxes = [{name = "hull", centre_m = [0.3, 0.0, 0.0], size_m = [0.4, 1.0, 0.4]}]
+)",
+                    hinge = R"(
+[joints.hinge]
+bodies = ["box", "barge"]
+point_m = [0.15, 0.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+)";
+  CHECK_THROWS_WITH(room({}, barge), Contains("bodies.box") && Contains("deep in body barge"));
+  CHECK_NOTHROW(room({"bodies.barge.displacement_m=[0.1,0.0,0.0]"}, barge));
+  CHECK_NOTHROW(room({}, barge + hinge));
+}

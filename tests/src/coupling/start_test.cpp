@@ -58,7 +58,7 @@ TEST_CASE("a displaced start is the described position moved and turned about th
   CHECK(start.state.motions[0].velocity.x() == Approx(0.1));
 }
 
-TEST_CASE("a spin that a hinge does not allow is refused by name, one about it takes the body along", "[coupling][fast]") {
+TEST_CASE("a start that a hinge does not allow is refused by name, a spin about it takes the body along", "[coupling][fast]") {
   const std::string door = R"(
 [time]
 end_s = 1.0
@@ -79,6 +79,13 @@ axis = [0.0, 0.0, 1.0]
                     Contains("bodies.door.omega_rad_s") && Contains("[1, 0, 2]") && Contains("leave [0, 0, 2]"));
   FloatingSystem along(test::scenario(door, {"bodies.door.velocity_m_s=[0.5,0.0,0.0]"}));
   CHECK_THROWS_WITH(make_start(along), Contains("bodies.door.velocity_m_s"));
+
+  FloatingSystem open(test::scenario(door, {"bodies.door.rotation_deg=[0.0,0.0,30.0]"}));
+  CHECK(make_start(open).state.motions[0].position.y() == Approx(0.5));  // its centre goes along
+  FloatingSystem tilted(test::scenario(door, {"bodies.door.rotation_deg=[20.0,0.0,0.0]"}));
+  CHECK_THROWS_WITH(make_start(tilted), Contains("bodies.door.rotation_deg") && Contains("[20, 0, 0]"));
+  FloatingSystem lifted(test::scenario(door, {"bodies.door.displacement_m=[0.0,0.0,0.3]"}));
+  CHECK_THROWS_WITH(make_start(lifted), Contains("bodies.door.displacement_m") && Contains("[0, 0, 0.3]"));
 }
 
 TEST_CASE("a step above the limit of the integrator is refused with limit and mode", "[coupling][fast]") {
