@@ -548,8 +548,8 @@ std::string System::describe(const StepReport& r) const {
       return "mass plus added mass is not positive definite";
     case Trouble::stiff:
       return "bodies: the step is beyond the " + fmt::format("{:.3g}", r.value) +
-             " s or so that the stiffest load allows now (a line that snapped taut, water met at speed); try a smaller "
-             "time.step_s";
+             " s or so that the stiffest load or the fastest turn allows now (a line that snapped taut, water met at speed, a "
+             "swing on a short arm); try a smaller time.step_s";
     case Trouble::energy:
       return "bodies: the steps themselves have made " + fmt::format("{:.3g}", r.value) +
              " J, more than half of all work of the loads; try a smaller time.step_s";

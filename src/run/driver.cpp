@@ -117,6 +117,9 @@ void Driver::summarise(Simulation& simulation, std::int64_t first, std::int64_t 
   summary_.counts = {{"windows", window - first}};
   summary_.ranks = parts_.world().size;
   simulation.summarise(summary_, ledger_);
+  if (settings_.trace && settings_.windows && (settings_.windows->first > window || settings_.windows->second <= first))
+    spdlog::warn("none of the windows {}:{} ran, of which a trace was asked for: windows {}:{} did", settings_.windows->first,
+                 settings_.windows->second, first + 1, window);
   describe_times();
 }
 

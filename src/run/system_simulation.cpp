@@ -152,6 +152,15 @@ class AirFields final : public Output {
   Every every_;
 };
 
+/// Of what the scene has.
+std::string smaller_steps(const coupling::FloatingSystem& floating, int retry) {
+  std::string words = fmt::format("bodies by {} pieces of a step", coupling::pieces_of_step(retry));
+  if (floating.particle_plan()) words += fmt::format(", sea by {:g} of its limit", coupling::share_of_substep(retry));
+  if (floating.scenario().resolves_air())
+    words += fmt::format(", CFL number of the air {:g} as large", coupling::share_of_cfl(retry));
+  return words;
+}
+
 }  // namespace
 
 SystemSimulation::SystemSimulation(coupling::FloatingSystem& floating, bodies::BodiesState start, const runtime::Parts& parts,
@@ -267,11 +276,8 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
   const std::int64_t steps = window_.sides().bodies().steps();
   coupling::WindowReport report = window_.advance(state_);
   for (int retry = 1; report.of_a_side && !report.stopped && retry <= coupling::most_retries; ++retry) {
-    spdlog::warn(
-        "{}; the window to t = {:g} s is made again (retry {} of {}): bodies by {} pieces of a step, sea by {:g} of its "
-        "limit, CFL number of the air {:g} as large",
-        report.failure, end_s, retry, coupling::most_retries, coupling::pieces_of_step(retry), coupling::share_of_substep(retry),
-        coupling::share_of_cfl(retry));
+    spdlog::warn("{}; the window to t = {:g} s is made again (retry {} of {}): {}", report.failure, end_s, retry,
+                 coupling::most_retries, smaller_steps(floating_, retry));
     report = window_.advance(state_, retry);
   }
   if (aero::BladedLibrary* library = library_of(floating_))
