@@ -9,6 +9,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/wind_doubts.hpp"
+#include "src/scene/columns.hpp"
 
 namespace spindrift::aero {
 
@@ -229,6 +230,28 @@ void doubt_viscosity(scene::Doubts& doubts, const AeroOptions& aero, const WindO
 
 /// The wake of a rotor answers within some radii of the wind's way (Oye 1990; Madsen et al. 2020). Sound travels through air at
 /// 295 to 355 m/s from -55 to 40 C; pressurised tunnels have a hundredth of air's viscosity.
+/// Tables of thrust and power against wind: their units, and a wind that they do not reach. Sound ones have a thrust coefficient
+/// above .02 and above 5 m/s a power coefficient above .01, up to storms.
+void doubt_curve(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double air_density,
+                 const RotorAtStart& start) {
+  if (aero.model != "thrust_curve" || aero.curve.empty() || start.radius <= 0.0) return;
+  constexpr double least_thrust = 0.005, least_power = 0.003, beyond = 1.05;
+  const double speed = wind.speed_m_s, pressure = 0.5 * air_density * pi * start.radius * start.radius * speed * speed;
+  const double thrust = start.thrust.value_or(0.0), power = start.power.value_or(0.0);
+  if (speed >= 3.0 && thrust > 0.0 && thrust < least_thrust * pressure)
+    doubts.push_back({"aero.curve",
+                      fmt::format("a thrust of {:.3g} N at the start, a coefficient of {:.2g}", thrust, thrust / pressure),
+                      fmt::format("{:g} or more", least_thrust), "look at the unit of its thrust_N: N, not kN"});
+  if (speed >= 5.0 && power > 0.0 && power < least_power * pressure * speed)
+    doubts.push_back({"aero.curve",
+                      fmt::format("a power of {:.3g} W at the start, a coefficient of {:.2g}", power, power / (pressure * speed)),
+                      fmt::format("{:g} or more", least_power), "look at the units of its power_W or torque_N_m: W, not kW"});
+  const scene::Columns file = scene::read_columns(aero.curve);
+  if (file.has("wind_m_s") && speed > beyond * file["wind_m_s"].back())
+    doubts.push_back({"aero.curve", fmt::format("rows up to {:.4g} m/s in a wind of {:.4g} m/s", file["wind_m_s"].back(), speed),
+                      "rows for the winds of the run", "beyond them the coefficients of the last row hold: loads go on as U^2"});
+}
+
 void doubt_air(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double radius) {
   constexpr double least = 0.02, most = 50.0;
   if (const double way = aero.inflow_time_s.value_or(0.0) * wind.speed_m_s;
@@ -277,6 +300,7 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   doubt_speed(doubts, start.speed_key, wind, start, blown);
   if (aero.model != "prescribed") append(doubts, wind_doubts(wind, start.radius, start.over_water));
   doubt_load(doubts, wind, air_density, start, blown);
+  doubt_curve(doubts, aero, wind, air_density, start);
   doubt_viscosity(doubts, aero, wind, air_density, start);
   doubt_sides(doubts, aero, start);
   doubt_tower(doubts, aero, rotor, start);

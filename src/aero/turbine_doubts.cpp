@@ -10,6 +10,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/aero/blade_roots.hpp"
+#include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/scene/angle_doubts.hpp"
 #include "src/scene/columns.hpp"
@@ -128,6 +129,37 @@ scene::Doubts blade_mass_doubts(const std::string& key, const Turbine& turbine, 
   return {{key, fmt::format("blades of {:.4g} kg and {:.4g} m", mass, radius),
            fmt::format("{:.3g} to {:.3g} kg for that length", least * usual, most * usual),
            "look at the unit of mass_kg_m: kg/m"}};
+}
+
+/// A rotor that takes the most power has at 0.7 of its radius chords near 16 pi R / (9 B CL lambda^2 0.7), Betz's (Hau 2013,
+/// section 5.3), with a lift coefficient CL about 1: the DTU 10 MW .87 of that, the NREL 5 MW 1.03.
+scene::Doubts chord_doubts(const std::string& turbine, const std::string& operation) {
+  constexpr double place = 0.7, least = 0.6, most = 1.5;
+  const Operation table = read_operation(operation);
+  const Planform p = read_turbine(turbine).planform;
+  scene::Document file = scene::load(turbine);
+  const TurbineOptions options = file.read(turbine_section());
+  if (table.power.empty() || p.span.size() < 2) return {};
+  const double radius = p.span.back();
+  std::size_t best = table.wind.size();
+  double coefficient = 0.0;
+  for (std::size_t n = 0; n < table.wind.size(); ++n)
+    if (const double c = table.wind[n] > 0.0 ? table.power[n] / std::pow(table.wind[n], 3) : 0.0; c > coefficient)
+      best = n, coefficient = c;
+  if (best == table.wind.size() || table.speed[best] <= 0.0) return {};
+  const double ratio = table.speed[best] * radius / table.wind[best];
+  const auto above = std::clamp<std::size_t>(std::size_t(std::ranges::upper_bound(p.span, place * radius) - p.span.begin()), 1,
+                                             p.span.size() - 1);
+  const double share = (place * radius - p.span[above - 1]) / (p.span[above] - p.span[above - 1]);
+  const double chord = (1.0 - share) * p.chord[above - 1] + share * p.chord[above];
+  const double betz = 16.0 * pi * radius / (9.0 * options.blades * ratio * ratio * place);
+  if (chord >= least * betz && chord <= most * betz) return {};
+  return {{std::filesystem::path(options.planform).filename().string() + ".chord_m",
+           fmt::format("{:.4g} m at {:g} of the radius, with {} blades at a tip-speed ratio of {:.3g}", chord, place,
+                       options.blades, ratio),
+           fmt::format("{:.3g} to {:.3g} m there, {:g} to {:g} times Betz's chord of a lift coefficient of 1", least * betz,
+                       most * betz, least, most),
+           "look at the chords, halved or doubled?, at the number of blades and at the operating table"}};
 }
 
 scene::Doubts turbine_doubts(const std::string& path) {

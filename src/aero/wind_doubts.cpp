@@ -7,6 +7,8 @@
 #include <string>
 
 #include "src/aero/wind.hpp"
+#include "src/scene/angle_doubts.hpp"
+#include "src/scene/columns.hpp"
 
 namespace spindrift::aero {
 
@@ -75,12 +77,25 @@ void doubt_class_of_event(scene::Doubts& doubts, const WindOptions& wind) {
                       "up to 0.3: .12 to .18 by class (IEC 61400-1)", "it is a share, not per cent"});
 }
 
+/// Directions of a table all of which are round numbers of degrees, given in radians.
+void doubt_table_of_directions(scene::Doubts& doubts, const WindOptions& wind) {
+  const scene::Columns file = scene::read_columns(wind.table);
+  if (!file.has("direction_deg")) return;
+  double largest = 0.0;
+  for (const double angle : file["direction_deg"]) {
+    if (angle != 0.0 && !scene::looks_like_radians(angle)) return;
+    if (std::abs(angle) > std::abs(largest)) largest = angle;
+  }
+  if (largest != 0.0) doubts.push_back(scene::doubt_of_angle("wind.table", largest));
+}
+
 /// Of a table and of events; that with which they begin is told by doubt_wind.
 void doubt_changes(scene::Doubts& doubts, const WindOptions& wind) {
   if (const double most = wind.table.empty() ? 0.0 : greatest_speed(wind); most > most_gust)
     doubts.push_back({"wind.table", fmt::format("a wind of up to {:.4g} m/s", most),
                       fmt::format("gusts up to {:g} m/s, of cyclones (IEC 61400-1, class T)", most_gust),
                       "look at the unit of its speed_m_s: not km/h or knots"});
+  if (!wind.table.empty()) doubt_table_of_directions(doubts, wind);
   if (!wind.event) return;
   if (wind.event->what == WindEvent::step || wind.event->what == WindEvent::ramp)
     doubt_step_of_wind(doubts, wind);

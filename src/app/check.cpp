@@ -177,7 +177,8 @@ void print_cost_of_steps(const coupling::Timeline& t, const BaseCost& base, doub
   for (const std::string& warning : beyond_machine(base.bytes, seconds)) fmt::print("  warning: {}\n", warning);
 }
 
-void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& state) {
+void print_equilibrium(FloatingSystem& floating, const bodies::Equilibrium& equilibrium) {
+  const bodies::BodiesState& state = equilibrium.state;
   const auto bodies = floating.multibody().bodies();
   const std::size_t lines = floating.moorings() ? floating.moorings()->size() : 0;
   const std::size_t junctions = floating.moorings() ? floating.moorings()->junctions() : 0;
@@ -197,6 +198,7 @@ void print_equilibrium(FloatingSystem& floating, const bodies::BodiesState& stat
                width, rounded(m.displacement.x()), rounded(m.displacement.y()), rounded(m.displacement.z()), rounded(degrees.x()),
                rounded(degrees.y()), rounded(degrees.z()), wet ? fmt::format("   draft {:.3f} m", -reach.low) : "");
   }
+  if (!equilibrium.unstable.empty()) fmt::print("  unstable: {}, which leaves this rest by itself\n", equilibrium.unstable);
   if (!floating.moorings()) return;
   const std::vector<moorings::LineTension> tensions = floating.moorings()->tensions(state.motions);
   for (std::size_t line = 0; line < lines; ++line)
@@ -605,7 +607,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   };
   const bodies::Equilibrium equilibrium = start.equilibrium ? *start.equilibrium : equilibrium_now();
   if (equilibrium.problem.empty())
-    print_equilibrium(floating, equilibrium.state);
+    print_equilibrium(floating, equilibrium);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
   std::vector<PartCost> parts;

@@ -30,13 +30,15 @@ void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptio
                       fmt::format("above {:.3g} m, half that of a solid ball of steel", 0.5 * ball), advice});
 }
 
-/// Axis by axis, against a homogeneous block of the shapes' size: an inertia that belongs to another axis stands out. A tower on
-/// top gives a float up to four times its block's radius about level axes; ballast or a thin hull change it by less than two.
-void doubt_axes_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
-                           const Eigen::AlignedBox3d& box) {
-  constexpr double least = 0.1, most = 8.0;
+/// Axis by axis, against a homogeneous block of the shapes' size: an inertia that belongs to another axis or another unit stands
+/// out. A tower on top gives a float up to four times its block's radius about level axes; ballast or a thin hull change it by
+/// less than two.
+void doubt_axes_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body, const Eigen::AlignedBox3d& box,
+                           bool planar) {
+  constexpr double least = 0.4, most = 8.0;
   const Eigen::Vector3d squares = box.sizes().cwiseAbs2();
   for (int axis = 0; axis < 3; ++axis) {
+    if (planar && axis != 1) continue;
     const double block = std::sqrt((squares.sum() - squares[axis]) / 12.0);
     const double radius = std::sqrt(std::max(0.0, body.inertia_kg_m2(axis, axis) / body.mass_kg));
     if (block == 0.0 || (radius >= least * block && radius <= most * block)) continue;
@@ -49,16 +51,41 @@ void doubt_axes_of_inertia(scene::Doubts& doubts, const std::string& at, const B
   }
 }
 
+/// Mass that lies between two planes at distances a and b of its centre has a mean square of the distance of a b at most. Where
+/// the scene shows how high a body reaches, none of its mass is beyond: an inertia about the keel or the water's surface is
+/// larger. Hulls with their towers have .4 to .8 of that radius, the platform of Leble & Barakos (2016) 1.02.
+void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body, Eigen::AlignedBox3d box,
+                            double top, bool planar) {
+  constexpr double most = 1.15;
+  box.extend(Eigen::Vector3d(box.center().x(), box.center().y(), top)).extend(body.centre_m);
+  const Eigen::Vector3d squares = (box.max() - body.centre_m).cwiseProduct(body.centre_m - box.min());
+  for (int axis = 0; axis < 3; ++axis) {
+    if (planar && axis != 1) continue;
+    const double limit = std::sqrt(squares.sum() - squares[axis]);
+    const double radius = std::sqrt(std::max(0.0, body.inertia_kg_m2(axis, axis) / body.mass_kg));
+    if (radius <= most * limit) continue;
+    doubts.push_back({at + ".inertia_kg_m2",
+                      fmt::format("a radius of gyration of {:.3g} m about {}, where mass that lies within its shapes and up to "
+                                  "{:.4g} m has {:.3g} m at most",
+                                  radius, "xyz"[axis], top, limit),
+                      fmt::format("up to {:g} times that", most),
+                      "it is about the centre of mass, not about the keel or the water's surface; look at the unit, kg m2, too"});
+    return;
+  }
+}
+
 }  // namespace
 
-scene::Doubts body_doubts(const NamedBodies& bodies) {
+scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& around) {
   scene::Doubts doubts;
   for (const auto& [name, body] : bodies) {
     const std::string at = "bodies." + name;
     const double size = extent(body);
     const std::size_t before = doubts.size();
     doubt_inertia(doubts, at, body, size);
-    if (size > 0.0 && doubts.size() == before) doubt_axes_of_inertia(doubts, at, body, bounds(body));
+    if (size > 0.0 && doubts.size() == before) doubt_axes_of_inertia(doubts, at, body, bounds(body), around.planar);
+    if (size > 0.0 && around.top && doubts.size() == before)
+      doubt_point_of_inertia(doubts, at, body, bounds(body), *around.top, around.planar);
     if (const double off = body.displacement_m.norm(); size > 0.0 && off > 5.0 * size)
       doubts.push_back({at + ".displacement_m", fmt::format("starts {:.4g} m from where it is described", off),
                         fmt::format("up to five times half its diagonal, {:.3g} m", 5.0 * size), "look at its unit: m"});

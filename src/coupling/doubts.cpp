@@ -17,6 +17,7 @@
 #include "src/coupling/rotor_doubts.hpp"
 #include "src/moorings/bed_file.hpp"
 #include "src/moorings/doubts.hpp"
+#include "src/scene/columns.hpp"
 #include "src/sea/doubts.hpp"
 
 namespace spindrift::coupling {
@@ -293,15 +294,64 @@ void doubt_matrices(scene::Doubts& doubts, const Scenario& s) {
   }
 }
 
+/// Floats in particles that capsize: their rest is on their side, or unstable with their mass high over the water. Those that
+/// heel from one rest to another, as a log of square section does, have it near the water or below.
+void doubt_top_heavy(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start,
+                     const bodies::Equilibrium& found) {
+  if (!floating.particle_plan()) return;
+  constexpr double high = 0.1, side_deg = 60.0;  // of half its diagonal
+  const bodies::NamedBodies& bodies = floating.scenario().bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto& [name, body] = bodies[b];
+    if (bodies::extent(body) == 0.0) continue;
+    const Motion &now = start.state.motions[b], &rest = found.state.motions[b];
+    const Eigen::Vector3d up = rest.attitude * (now.attitude.conjugate() * Eigen::Vector3d::UnitZ());
+    const double over = rest.position.z(), heel = std::acos(std::clamp(up.z(), -1.0, 1.0)) / radians_per_degree;
+    const bool rolls = !floating.scenario().sea.particles->planar() && found.unstable == "roll of " + name;
+    std::string what;
+    if (heel > side_deg) what = fmt::format("the body capsizes: it rests turned by {:.3g} degrees from its start", heel);
+    if ((rolls || found.unstable == "pitch of " + name) && over > high * bodies::extent(body))
+      what =
+          fmt::format("{} is unstable where the body floats, its centre of mass {:.3g} m over the water", found.unstable, over);
+    if (!what.empty())
+      doubts.push_back({"bodies." + name + ".centre_m", what, "a metacentric height above zero",
+                        "look at the height of the centre of mass and at the shapes"});
+  }
+}
+
+/// A start that an equilibrium takes the place of: the run would not be the decay test that the scene describes.
+void doubt_displaced_equilibrium(scene::Doubts& doubts, const FloatingSystem& floating, const Start& start) {
+  if (!start.equilibrium) return;
+  constexpr double most = 0.1;  // of a place that is given as the first guess
+  for (std::size_t b = 0; b < start.state.motions.size(); ++b) {
+    const auto& [name, o] = floating.scenario().bodies[b];
+    const Motion& found = start.state.motions[b];
+    const ReferenceMotion m = reference_motion(found, described_motion(o), floating.reference_point(b), Eigen::Vector3d::Zero(),
+                                               Eigen::Vector3d::Zero());
+    const auto doubt = [&](const char* key, const Eigen::Vector3d& given, const Eigen::Vector3d& is) {
+      if (given.isZero(0.0) || (given - is).norm() <= most * given.norm()) return;
+      doubts.push_back({"bodies." + name + key,
+                        fmt::format("[{:.4g}, {:.4g}, {:.4g}], of which start.equilibrium leaves [{:.4g}, {:.4g}, {:.4g}]",
+                                    given.x(), given.y(), given.z(), is.x(), is.y(), is.z()),
+                        "one of the two", "for a start from there, as for a decay test, leave out start.equilibrium"});
+    };
+    doubt(".displacement_m", o.displacement_m, m.displacement);
+    doubt(".rotation_deg", o.rotation / radians_per_degree, m.angles / radians_per_degree);
+    doubt(".velocity_m_s", o.velocity_m_s, found.velocity);
+    doubt(".omega_rad_s", o.omega_rad_s, found.omega_earth());
+  }
+}
+
 /// Where the floating system would come to rest, or starts at rest, against where it is described.
 void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
-  if (floating.particle_plan() && !start.equilibrium) return;  // its water is not there yet
   const auto found_now = [&] {
     const MeanLoads mean(floating);
     return find_equilibrium(floating.multibody(), start.state, 0.0);
   };
   const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : found_now();
   if (!found.problem.empty()) return;
+  doubt_top_heavy(doubts, floating, start, found);
+  if (floating.particle_plan() && !start.equilibrium) return;  // its water is not there yet
   const auto all = floating.multibody().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
     const bodies::BodyOptions& body = floating.scenario().bodies[b].options;
@@ -326,7 +376,21 @@ void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start&
   }
 }
 
+/// A table in time that the run does not come to, or leaves at its very start: its first or its last value holds.
+void doubt_time_of_table(scene::Doubts& doubts, const std::string& key, const std::string& path, double end_s) {
+  if (path.empty()) return;
+  constexpr double least = 2e-3;  // ramps that then hold are longer
+  const scene::Columns file = scene::read_columns(path);
+  const std::span<const double> time = file["time_s"];
+  const bool too_late = time.front() >= end_s || (time.size() > 2 && time[1] > end_s);
+  if (time.size() < 2 || (!too_late && time.back() >= least * end_s)) return;
+  doubts.push_back({key,
+                    fmt::format("rows at {:.4g}, {:.4g} to {:.4g} s in a run of {:.4g} s", time[0], time[1], time.back(), end_s),
+                    "rows within the run", "one value or one line holds all along; look at the unit of its time_s: s, not ms"});
+}
+
 void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
+  constexpr double most_checkpoints = 200.0;
   const Scenario& s = floating.scenario();
   const bool wavy = s.has_waves() && s.waves.period_s > 0.0;
   if (wavy && s.time.window_s > s.waves.period_s / 8.0 && s.has_rotor() && s.coupling.scheme != SchemeKind::monolithic)
@@ -357,6 +421,8 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
+  doubt_time_of_table(doubts, "wind.table", s.has_rotor() ? s.wind.table : "", s.time.end_s);
+  doubt_time_of_table(doubts, "aero.table", s.aero.table, s.time.end_s);
   for (const auto& [key, value] : {std::pair{"waves.crest_time_s", s.waves.crest_height_m ? s.waves.crest_time_s : 0.0},
                                    std::pair{"sea.wavemaker.start_s", s.sea.wavemaker ? s.sea.wavemaker->start_s : 0.0},
                                    std::pair{"sea.fields.from_s", s.sea.fields ? s.sea.fields->from_s : 0.0}})
@@ -388,6 +454,14 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
       doubts.push_back({"sea.fields.interval_s", fmt::format("{:.4g} s with windows of {:.4g} s", interval, s.time.window_s),
                         "a window or more", "fields are written at ends of windows; look at its unit: s"});
   }
+  if (const double interval = s.checkpoint.interval_s; interval > 0.0 &&
+                                                       s.time.end_s > most_checkpoints * std::max(interval, s.time.window_s) &&
+                                                       (s.has_particles() || s.resolves_air()))
+    doubts.push_back({"checkpoint.interval_s",
+                      fmt::format("{:.4g} s: {:.0f} states of all the water or air are written", interval,
+                                  std::floor(s.time.end_s / std::max(interval, s.time.window_s))),
+                      fmt::format("up to {:g} in a run", most_checkpoints),
+                      "look at its unit: s; checkpoint.wall_interval_s saves by the clock, at little cost"});
   if (s.sea.settle_s() > 10.0 * s.time.end_s)
     doubts.push_back({"sea.initial.settle_s", fmt::format("{:.4g} s before a run of {:.4g} s", s.sea.settle_s(), s.time.end_s),
                       "up to ten times the run", "look at its unit: s"});
@@ -467,10 +541,20 @@ void doubt_origin(scene::Doubts& doubts, const Scenario& s) {
                       fmt::format("up to {:.3g} m", usual), "look at its unit: m, and that it is in the scene's coordinates"});
 }
 
+/// The highest hub or end of a beam [m].
+std::optional<double> tower_top(const Scenario& s) {
+  std::optional<double> top;
+  const auto reaches = [&](double height) { top = std::max(top.value_or(height), height); };
+  if (s.has_rotor())
+    for (const Scenario& one : by_rotor(s)) reaches(placed_rotor(one).rotor.hub_m.z());
+  for (const auto& beam : s.beams) reaches(std::max(beam.options.start_m.z(), beam.options.end_m.z()));
+  return top;
+}
+
 /// Of bodies, lines, turbine, sea and times, with the bodies where `motions` has them.
 scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motion> motions) {
   const Scenario& s = floating.scenario();
-  scene::Doubts all = body_doubts(s.bodies);
+  scene::Doubts all = body_doubts(s.bodies, {tower_top(s), s.has_particles() && s.sea.particles->planar()});
   append(all, bodies::beam_doubts(s.beams));
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
@@ -516,6 +600,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   doubt_rotors(all, floating,
                [&](scene::Doubts& found, const Scenario& s, const RotorSource&) { doubt_tuning(found, s, stability); });
   doubt_statics(all, floating, start);
+  doubt_displaced_equilibrium(all, floating, start);
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const RotorSource& rotor) {
     doubt_resonance(found, floating, rotor.loads, start, stability);
   });

@@ -219,7 +219,10 @@ scene::Doubts rotor_file_doubts(const Scenario& s, std::set<std::string>& told) 
       return aero::read_blade_structure(turbine, file).masses;
     });
   }
-  if (first(s.rotor.operation)) append(doubts, aero::operation_doubts(s.rotor.operation, rotor_radius(s)));
+  if (first(s.rotor.operation)) {
+    append(doubts, aero::operation_doubts(s.rotor.operation, rotor_radius(s)));
+    if (!s.rotor.turbine.empty() && doubts.empty()) append(doubts, aero::chord_doubts(s.rotor.turbine, s.rotor.operation));
+  }
   if (s.control.model == aero::ControlModel::dtu && first(s.control.file))
     append(doubts, aero::controller_doubts(s.control.file, rotor_radius(s)));
   return doubts;

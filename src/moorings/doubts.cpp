@@ -59,12 +59,15 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
 
 /// Chain, wire and fibre rope alike have an axial stiffness of some 10^6 m times their weight in water: studless chain 8.5e10 d^2
 /// N over 1.7e5 d^2 N/m, wire rope 4e10 over 3.4e4, spiral strand 9e10 over 4.2e4, polyester 1.1e9 over 2e3, nylon 1.2e8 over 650
-/// (diameters d in m; Orcina's fits to manufacturers' tables). A weight in kg/m is a tenth of that in N/m.
+/// (diameters d in m; Orcina's fits to manufacturers' tables). A weight in kg/m is a tenth of that in N/m. Lines of a model basin
+/// have springs in them: by Froude's law the ratio goes with the length.
 void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
+  constexpr double at_sea_m = 200.0;
+  const double least = 6e4 * std::min(1.0, line.length_m() / at_sea_m), most = 4e6;
   const auto doubt = [&](const std::string& key, double weight, double stiffness) {
-    if (const double ratio = stiffness / weight; ratio < 6e4 || ratio > 4e6)
+    if (const double ratio = stiffness / weight; ratio < least || ratio > most)
       doubts.push_back({at + key, fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight, stiffness),
-                        "a stiffness of 6e4 to 4e6 m times the weight in water",
+                        fmt::format("a stiffness of {:.3g} to {:g} m times the weight in water", least, most),
                         "look at the units: N/m in water, not kg/m or kN/m; N, not kN"});
   };
   if (hangs(line) && line.axial_stiffness_N)
