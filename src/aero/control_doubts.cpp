@@ -160,6 +160,11 @@ scene::Doubts control_doubts(const ControlOptions& control) {
       doubts.push_back({fmt::format("control.events[{}]", i), "emergency_stop with a brake of 0 N m",
                         fmt::format("brake_torque_N_m above 0 in {}", library ? "control.drive_train" : control.file),
                         "without a brake it is a grid_loss: the blades alone slow the rotor down"});
+  const auto first = std::ranges::min_element(control.events, {}, &EventOptions::time_s);
+  if (first != control.events.end() && first->what == ControlEvent::start_up && control.model == ControlModel::dtu &&
+      control.start == ControlStart::operating)
+    doubts.push_back({fmt::format("control.events[{}]", first - control.events.begin()), "start_up of a turbine that operates",
+                      "control.start = \"parked\"", "it starts at its operating point, and the event does nothing"});
   return doubts;
 }
 
