@@ -34,6 +34,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/limits.hpp"
 #include "src/coupling/memory_limits.hpp"
+#include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/angle_doubts.hpp"
@@ -80,7 +81,7 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   else
     fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
                census.bodies);
-  const bool alone = s.joints.empty() && s.moorings.empty() && s.beams.empty() && !s.has_rotor();
+  const bool alone = coupling::has_level_water(s) && s.joints.empty() && s.moorings.empty() && s.beams.empty() && !s.has_rotor();
   for (const sea::ParticleCensus::Body& body : census.floats)
     fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start{}\n", body.name, body.volume_m3,
                body.wetted_m3,
@@ -605,11 +606,12 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     const coupling::MeanLoads mean(floating);
     return find_equilibrium(floating.multibody(), start.state, 0.0);
   };
-  const bodies::Equilibrium equilibrium = start.equilibrium ? *start.equilibrium : equilibrium_now();
-  if (equilibrium.problem.empty())
-    print_equilibrium(floating, equilibrium);
+  if (!coupling::has_level_water(floating.scenario()))
+    fmt::print("\nStatic equilibrium: not sought, as the water of [[sea.water]] is not level at z = 0 from side to side\n");
+  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : equilibrium_now(); found.problem.empty())
+    print_equilibrium(floating, found);
   else
-    fmt::print("\nStatic equilibrium: none found ({})\n", equilibrium.problem);
+    fmt::print("\nStatic equilibrium: none found ({})\n", found.problem);
   std::vector<PartCost> parts;
   if (floating.scenario().has_actuator()) {
     const std::optional<PartCost> air = print_actuated_air(floating.scenario(), world.size);

@@ -13,6 +13,7 @@
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/rotor_doubts.hpp"
 #include "src/moorings/bed_file.hpp"
@@ -344,6 +345,7 @@ void doubt_displaced_equilibrium(scene::Doubts& doubts, const FloatingSystem& fl
 
 /// Where the floating system would come to rest, or starts at rest, against where it is described.
 void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start& start) {
+  if (!has_level_water(floating.scenario())) return;
   const auto found_now = [&] {
     const MeanLoads mean(floating);
     return find_equilibrium(floating.multibody(), start.state, 0.0);

@@ -13,6 +13,9 @@ namespace spindrift::coupling {
 /// blades know air alone. Tested in tests/src/coupling/out_of_place_test.cpp.
 std::optional<NumericalFailure> out_of_place(const FloatingSystem& floating, const bodies::BodiesState& state);
 
+/// Whether water fills the sea to z = 0 from side to side, where statics have it. Boxes of particles may not.
+bool has_level_water(const Scenario& scenario);
+
 /// Throws scene::SceneError where a body in a sea of particles reaches more than a spacing into another one, or into bed, walls
 /// or obstacles: contact would throw it off. Bodies that a joint or a beam ties to what they reach into may, as a pile or a flap
 /// does.

@@ -10,6 +10,7 @@
 #include "src/bodies/mode_names.hpp"
 #include "src/coupling/limits.hpp"
 #include "src/coupling/onsets.hpp"
+#include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
 
 namespace spindrift::coupling {
@@ -82,6 +83,10 @@ Start start_without_memory(FloatingSystem& floating) {
   Start start{std::move(assembly.state), assembly.degrees_of_freedom, std::move(assembly.redundant), {}};
   move_to_start(floating, start.state);
   if (!floating.scenario().start.equilibrium) return start;
+  if (!has_level_water(floating.scenario()))
+    refuse(floating, "start.equilibrium", "true",
+           "is found in water that is level at z = 0 from side to side, and that of [[sea.water]] is not: give the bodies their "
+           "places, or fill the tank to z = 0");
 
   const MeanLoads mean(floating);
   start.equilibrium = find_equilibrium(floating.multibody(), start.state, 0.0);

@@ -105,4 +105,13 @@ axis = [0.0, 1.0, 0.0]
   CHECK_THROWS_WITH(room({}, barge), Contains("bodies.box") && Contains("deep in body barge"));
   CHECK_NOTHROW(room({"bodies.barge.displacement_m=[0.1,0.0,0.0]"}, barge));
   CHECK_NOTHROW(room({}, barge + hinge));
+
+  // Statics know water that is level at z = 0 alone.
+  const std::string water = "sea.water=[{low_m=[-1.5,-0.5,-0.6],high_m=[1.5,0.5,";
+  const auto at_rest = [&](const std::string& level) {
+    FloatingSystem floating(test::scenario(tank, {water + level + "]}]", "start.equilibrium=true"}));
+    make_start(floating);
+  };
+  CHECK_NOTHROW(at_rest("0.0"));
+  CHECK_THROWS_WITH(at_rest("-0.2"), Contains("start.equilibrium") && Contains("level at z = 0"));
 }
