@@ -228,8 +228,6 @@ void doubt_viscosity(scene::Doubts& doubts, const AeroOptions& aero, const WindO
          fmt::format("{:g} to {:g}", least, most), "look at its unit: air has 1.8e-5 Pa s"});
 }
 
-/// The wake of a rotor answers within some radii of the wind's way (Oye 1990; Madsen et al. 2020). Sound travels through air at
-/// 295 to 355 m/s from -55 to 40 C; pressurised tunnels have a hundredth of air's viscosity.
 /// Tables of thrust and power against wind: their units, and a wind that they do not reach. Sound ones have a thrust coefficient
 /// above .02 and above 5 m/s a power coefficient above .01, up to storms.
 void doubt_curve(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double air_density,
@@ -252,6 +250,8 @@ void doubt_curve(scene::Doubts& doubts, const AeroOptions& aero, const WindOptio
                       "rows for the winds of the run", "beyond them the coefficients of the last row hold: loads go on as U^2"});
 }
 
+/// The wake of a rotor answers within some radii of the wind's way (Oye 1990; Madsen et al. 2020). Sound travels through air at
+/// 295 to 355 m/s from -55 to 40 C; pressurised tunnels have a hundredth of air's viscosity.
 void doubt_air(scene::Doubts& doubts, const AeroOptions& aero, const WindOptions& wind, double radius) {
   constexpr double least = 0.02, most = 50.0;
   if (const double way = aero.inflow_time_s.value_or(0.0) * wind.speed_m_s;
