@@ -392,7 +392,7 @@ void doubt_time_of_table(scene::Doubts& doubts, const std::string& key, const st
 }
 
 void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
-  constexpr double most_checkpoints = 200.0;
+  constexpr double most_checkpoints = 320.0;
   const Scenario& s = floating.scenario();
   const bool wavy = s.has_waves() && s.waves.period_s > 0.0;
   if (wavy && s.time.window_s > s.waves.period_s / 8.0 && s.has_rotor() && s.coupling.scheme != SchemeKind::monolithic)
