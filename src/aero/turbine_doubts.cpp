@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/interpolation.hpp"
 #include "src/aero/blade_roots.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
@@ -136,9 +137,8 @@ scene::Doubts blade_mass_doubts(const std::string& key, const Turbine& turbine, 
 scene::Doubts chord_doubts(const std::string& turbine, const std::string& operation) {
   constexpr double place = 0.7, least = 0.6, most = 1.5;
   const Operation table = read_operation(operation);
-  const Planform p = read_turbine(turbine).planform;
-  scene::Document file = scene::load(turbine);
-  const TurbineOptions options = file.read(turbine_section());
+  const Turbine rotor = read_turbine(turbine);
+  const Planform& p = rotor.planform;
   if (table.power.empty() || p.span.size() < 2) return {};
   const double radius = p.span.back();
   std::size_t best = table.wind.size();
@@ -148,15 +148,13 @@ scene::Doubts chord_doubts(const std::string& turbine, const std::string& operat
       best = n, coefficient = c;
   if (best == table.wind.size() || table.speed[best] <= 0.0) return {};
   const double ratio = table.speed[best] * radius / table.wind[best];
-  const auto above = std::clamp<std::size_t>(std::size_t(std::ranges::upper_bound(p.span, place * radius) - p.span.begin()), 1,
-                                             p.span.size() - 1);
-  const double share = (place * radius - p.span[above - 1]) / (p.span[above] - p.span[above - 1]);
-  const double chord = (1.0 - share) * p.chord[above - 1] + share * p.chord[above];
-  const double betz = 16.0 * pi * radius / (9.0 * options.blades * ratio * ratio * place);
+  const double chord = interpolate_linear(p.span, p.chord, place * radius);
+  const double betz = 16.0 * pi * radius / (9.0 * rotor.blades * ratio * ratio * place);
   if (chord >= least * betz && chord <= most * betz) return {};
-  return {{std::filesystem::path(options.planform).filename().string() + ".chord_m",
+  const std::string planform = scene::load(turbine).read(turbine_section()).planform;
+  return {{std::filesystem::path(planform).filename().string() + ".chord_m",
            fmt::format("{:.4g} m at {:g} of the radius, with {} blades at a tip-speed ratio of {:.3g}", chord, place,
-                       options.blades, ratio),
+                       rotor.blades, ratio),
            fmt::format("{:.3g} to {:.3g} m there, {:g} to {:g} times Betz's chord of a lift coefficient of 1", least * betz,
                        most * betz, least, most),
            "look at the chords, halved or doubled?, at the number of blades and at the operating table"}};

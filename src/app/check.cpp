@@ -189,8 +189,7 @@ void print_equilibrium(FloatingSystem& floating, const bodies::Equilibrium& equi
   for (std::size_t j = 0; j < junctions; ++j) width = std::max(width, floating.moorings()->junction_name(j).size());
   fmt::print("\nStatic equilibrium under the mean loads: wind, current, still water (displacements of the reference points)\n");
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const coupling::ReferenceMotion m = coupling::reference_motion(
-        state.motions[b], bodies[b].initial, floating.reference_point(b), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    const coupling::ReferenceMotion m = coupling::reference_motion(floating, b, state.motions[b]);
     const Eigen::Vector3d degrees = m.angles / radians_per_degree;
     const auto rounded = [](double value) { return 1e-3 * std::round(1e3 * value) + 0.0; };  // + 0: no minus before zero
     const bodies::Reach reach = bodies::reach(floating.scenario().bodies[b].options, state.motions[b]);

@@ -327,8 +327,7 @@ void doubt_displaced_equilibrium(scene::Doubts& doubts, const FloatingSystem& fl
   for (std::size_t b = 0; b < start.state.motions.size(); ++b) {
     const auto& [name, o] = floating.scenario().bodies[b];
     const Motion& found = start.state.motions[b];
-    const ReferenceMotion m = reference_motion(found, described_motion(o), floating.reference_point(b), Eigen::Vector3d::Zero(),
-                                               Eigen::Vector3d::Zero());
+    const ReferenceMotion m = reference_motion(floating, b, found);
     const auto doubt = [&](const char* key, const Eigen::Vector3d& given, const Eigen::Vector3d& is) {
       if (given.isZero(0.0) || (given - is).norm() <= most * given.norm()) return;
       doubts.push_back({"bodies." + name + key,
@@ -358,8 +357,7 @@ void doubt_statics(scene::Doubts& doubts, FloatingSystem& floating, const Start&
   for (std::size_t b = 0; b < all.size(); ++b) {
     const bodies::BodyOptions& body = floating.scenario().bodies[b].options;
     if (bodies::extent(body) == 0.0) continue;
-    const ReferenceMotion m = reference_motion(found.state.motions[b], all[b].initial, floating.reference_point(b),
-                                               Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    const ReferenceMotion m = reference_motion(floating, b, found.state.motions[b]);
     const double turned = m.angles.head<2>().cwiseAbs().maxCoeff() / radians_per_degree, heave = m.displacement.z();
     const double draft = -bodies::bounds(body).min().z();  // where it is described
     const double most_heave = floating.scenario().has_sea() && draft > 0.0 ? 0.3 * draft : bodies::extent(body);

@@ -21,6 +21,11 @@ ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const
           .omega_rate = omega_rate};
 }
 
+ReferenceMotion reference_motion(const FloatingSystem& floating, std::size_t body, const Motion& now) {
+  return reference_motion(now, described_motion(floating.scenario().bodies[body].options), floating.reference_point(body),
+                          Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+}
+
 Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(floating) {
   const auto bodies = floating.multibody().bodies();
   const auto loads = floating.multibody().loads();

@@ -18,6 +18,8 @@ namespace spindrift::coupling {
 /// `point`: the reference point in body axes from the centre of mass; accelerations as System::evaluate gives them.
 ReferenceMotion reference_motion(const Motion& now, const Motion& initial, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& acceleration, const Eigen::Vector3d& omega_rate);
+/// Of a body by its number, from where the scene describes it; accelerations are left at zero.
+ReferenceMotion reference_motion(const FloatingSystem& floating, std::size_t body, const Motion& now);
 
 class Recorder {
  public:
