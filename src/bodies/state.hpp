@@ -19,6 +19,7 @@ struct EnergyBalance {
     joints,      ///< of joints and their drivers: what is left of the change of motion
     throughput,  ///< sum of the sizes of all sources' work
     error,       ///< kinetic energy gained beyond all work: made or lost by the steps themselves
+    peak,        ///< largest kinetic energy so far
     count
   };
 };

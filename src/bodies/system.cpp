@@ -178,7 +178,8 @@ void System::Work::count_power(double weight) {
 
 /// Adds the step's work to that of the run. False where a step by rk4 made or lost more energy than a thousandth of what the
 /// loads have turned over: a load that sets in within the step; or where the steps together did more than half of it: no solution
-/// of the equations does. Forward Euler, which gains energy by its nature, is counted and not judged.
+/// of the equations does. Forward Euler, which gains energy by its nature, may make a tenth of what the loads have done on
+/// balance.
 bool System::Work::count_work(double h, double kinetic_before) {
   const auto after_sources = std::span(opened.work).subspan(sources.size());
   for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -188,18 +189,30 @@ bool System::Work::count_work(double h, double kinetic_before) {
   for (const auto slot : {EnergyBalance::added_mass, EnergyBalance::joints})
     after_sources[slot] += h * step_work.work[sources.size() + slot];
   double& error = after_sources[EnergyBalance::error];
-  const double made = kinetic_energy_of(bodies, motions) - kinetic_before - h * step_work.kinetic_gain;
+  const double kinetic = kinetic_energy_of(bodies, motions);
+  const double made = kinetic - kinetic_before - h * step_work.kinetic_gain;
   error += made;
-  constexpr double most = 0.5, most_of_a_step = 1e-3, slow = 0.05;  // m/s: of all mass together, so that rest is no division by 0
+  double& peak = after_sources[EnergyBalance::peak];
+  peak = std::max({peak, kinetic_before, kinetic});
+  constexpr double most = 0.5, most_of_a_step = 1e-3;
+  constexpr double most_by_euler = 0.1, first_steps = 10.0;  // from rest the first steps make all motion there is
+  constexpr double slow = 0.05;                              // m/s: of all mass together, so that rest is no division by 0
   double mass = 0.0;
   for (const Body& body : bodies) mass += body.mass;
-  const double scale = after_sources[EnergyBalance::throughput] + std::abs(after_sources[EnergyBalance::joints]) +
-                       std::abs(after_sources[EnergyBalance::added_mass]) + kinetic_before + 0.5 * mass * slow * slow;
+  const double of_motion = std::abs(after_sources[EnergyBalance::joints]) + std::abs(after_sources[EnergyBalance::added_mass]) +
+                           0.5 * mass * slow * slow;
+  const double scale = after_sources[EnergyBalance::throughput] + of_motion + kinetic_before;
   if (integrator == Integrator::rk4 && std::abs(made) > most_of_a_step * scale) {
     report.value = 0.5 * h;
     return fail(StepReport::Trouble::stiff, -1);
   }
-  if (integrator == Integrator::explicit_euler || std::abs(error) <= most * scale) return true;
+  bool bounded = std::abs(error) <= most * scale;
+  if (integrator == Integrator::explicit_euler) {
+    double balance = of_motion;
+    for (std::size_t s = 0; s < sources.size(); ++s) balance += std::abs(opened.work[s]);
+    bounded = std::abs(error) <= most_by_euler * std::max(balance, peak) + first_steps * std::abs(made);
+  }
+  if (bounded) return true;
   report.value = error;
   return fail(StepReport::Trouble::energy, -1);
 }
@@ -551,6 +564,9 @@ std::string System::describe(const StepReport& r) const {
              " s or so that the stiffest load or the fastest turn allows now (a line that snapped taut, water met at speed, a "
              "swing on a short arm); try a smaller time.step_s";
     case Trouble::energy:
+      if (integrator() == Integrator::explicit_euler)
+        return "bodies: explicit_euler has made " + fmt::format("{:.3g}", r.value) +
+               " J, more than a tenth of what the loads have done on balance; take rk4 or symplectic (time.integrator)";
       return "bodies: the steps themselves have made " + fmt::format("{:.3g}", r.value) +
              " J, more than half of all work of the loads; try a smaller time.step_s";
     case Trouble::onset: {
