@@ -10,6 +10,23 @@
 
 namespace spindrift::bodies {
 
+std::vector<Eigen::AlignedBox3d> pieces(const BodyOptions& body) {
+  std::vector<Eigen::AlignedBox3d> all;
+  const auto add = [&](const Eigen::Vector3d& centre, const Eigen::Vector3d& half) {
+    all.emplace_back(centre - half, centre + half);
+  };
+  for (const CylinderOptions& c : body.cylinders) {
+    const Eigen::Vector3d axis = (c.end_m - c.start_m).normalized();
+    const Eigen::Vector3d disc = (1.0 - axis.array().square()).max(0.0).sqrt();
+    add(c.start_m, 0.5 * c.diameter_m * disc), add(c.end_m, 0.5 * c.end_diameter_m.value_or(c.diameter_m) * disc);
+  }
+  for (const BoxOptions& b : body.boxes) add(b.centre_m, 0.5 * b.size_m);
+  for (const scene::MeshOptions& m : body.meshes)
+    if (m.surface) all.push_back(m.surface->box());
+  for (const SphereOptions& s : body.spheres) add(s.centre_m, Eigen::Vector3d::Constant(0.5 * s.diameter_m));
+  return all;
+}
+
 Eigen::AlignedBox3d bounds(const BodyOptions& body) {
   Eigen::AlignedBox3d box;
   for (const CylinderOptions& c : body.cylinders)

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "src/bodies/beam_options.hpp"
 #include "src/bodies/options.hpp"
 
 namespace spindrift::bodies {
+
+/// As near as can be round each end of a cylinder, each box, sphere and surface, where the scene describes them, earth axes [m].
+std::vector<Eigen::AlignedBox3d> pieces(const BodyOptions& body);
 
 /// Round the body's shapes where the scene describes them, earth axes [m]; empty where it has none.
 Eigen::AlignedBox3d bounds(const BodyOptions& body);

@@ -562,7 +562,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   if (!s.environment.bathymetry.empty()) around.bed = &bed.emplace(moorings::read_bed(s.environment.bathymetry));
   sea::BodiesInSea in_sea{.entry_speed = bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)};
   for (const auto& [name, body] : s.bodies) {
-    around.masses_kg[name] = body.mass_kg;
+    around.masses_kg[name] = body.mass_kg, around.centres[name] = body.centre_m, around.pieces[name] = bodies::pieces(body);
     if (const Eigen::AlignedBox3d box = bodies::bounds(body); !box.isEmpty())
       around.shapes[name] = box, in_sea.boxes.emplace_back(name, box);
   }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
@@ -63,7 +65,7 @@ void doubt_length(scene::Doubts& doubts, const std::string& at, const LineOption
 /// have springs in them: by Froude's law the ratio goes with the length.
 void doubt_material(scene::Doubts& doubts, const std::string& at, const LineOptions& line, double weight_N_m) {
   constexpr double at_sea_m = 200.0;
-  const double least = 6e4 * std::min(1.0, line.length_m() / at_sea_m), most = 4e6;
+  const double least = 6e4 * std::min(1.0, line.length_m() / at_sea_m), most = 3e6;
   const auto doubt = [&](const std::string& key, double weight, double stiffness) {
     if (const double ratio = stiffness / weight; ratio < least || ratio > most)
       doubts.push_back({at + key, fmt::format("{:.4g} N/m in water with an axial stiffness of {:.4g} N", weight, stiffness),
@@ -86,11 +88,15 @@ std::string stiffness_key(const LineOptions& line) { return line.stiffness_N_m ?
 void doubt_spring(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
   if (!is_spring(line) || around.weight_N <= 0.0 || around.gravity_m_s2 <= 0.0) return;
   const double stiffness = line.series_stiffness_N_m(), mass = around.weight_N / around.gravity_m_s2;
-  constexpr double most_damping = 2.0, least_period = 0.3, least_share = 0.01;
+  constexpr double most_damping = 2.0, least_damping = 2e-5, least_period = 0.3, least_share = 0.01;
   if (const double ratio = line.damping_N_s_m / (2.0 * std::sqrt(stiffness * mass)); ratio > most_damping)
     doubts.push_back({at + ".damping_N_s_m",
                       fmt::format("{:.4g} N s/m, {:.3g} of critical for all bodies on this line", line.damping_N_s_m, ratio),
                       fmt::format("up to {:g} of it", most_damping), "look at its unit: N s/m, not kN s/m or per cent"});
+  else if (ratio > 0.0 && ratio < least_damping)
+    doubts.push_back({at + ".damping_N_s_m",
+                      fmt::format("{:.4g} N s/m, {:.2g} of critical for all bodies on this line", line.damping_N_s_m, ratio),
+                      fmt::format("{:g} of it or more, or 0", least_damping), "look at its unit: N s/m, not kN s/m"});
   const auto shape = around.shapes.find(line.body);
   if (around.depth_m < 0.0 || line.anchor_body != "earth" || shape == around.shapes.end()) return;
   const double swing = std::sqrt(0.5 * shape->second.diagonal().norm() / around.gravity_m_s2);
@@ -178,26 +184,82 @@ void doubt_floats(scene::Doubts& doubts, const std::string& at, const LineOption
                         "look at volume_m3 and mass_kg, or take lumped_mass and a junction, which floats"});
 }
 
+/// Where a straight line, seen from above, is within the least convex outline round these boxes: distances from `from` along the
+/// unit vector `along`; empty (the first larger) where it passes beside. Such an outline meets the line where chords between
+/// corners on its two sides do.
+std::pair<double, double> crossing(const std::vector<Eigen::AlignedBox3d>& boxes, const Eigen::Vector2d& from,
+                                   const Eigen::Vector2d& along) {
+  std::vector<Eigen::Vector2d> left, right;  // (distance along the line, distance aside of it)
+  for (const Eigen::AlignedBox3d& box : boxes)
+    for (const double x : {box.min().x(), box.max().x()})
+      for (const double y : {box.min().y(), box.max().y()}) {
+        const Eigen::Vector2d off = Eigen::Vector2d(x, y) - from;
+        const double aside = along.x() * off.y() - along.y() * off.x();
+        (aside > 0.0 ? left : right).emplace_back(off.dot(along), std::abs(aside));
+      }
+  std::pair<double, double> within{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Eigen::Vector2d& a : left)
+    for (const Eigen::Vector2d& b : right) {
+      const double share = a.y() / (a.y() + b.y()), place = a.x() + share * (b.x() - a.x());
+      within.first = std::min(within.first, place), within.second = std::max(within.second, place);
+    }
+  return within;
+}
+
+/// In plan, of all fairleads of the body.
+Eigen::Vector3d mean_fairlead(const std::vector<scene::Named<LineOptions>>& lines, const std::string& body) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const auto& [name, line] : lines)
+    if (line.body == body) sum += *line.fairlead_m, ++count;
+  return sum / count;
+}
+
+/// A straight line from its fairlead to its anchor that goes inwards by the body's centre of mass, and either by the middles of
+/// its shapes and of its fairleads too, or through the body. Lines of a turret at an outrigger go every way, crossed ones under
+/// the hull.
+void doubt_far_side(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around,
+                    const Eigen::Vector3d& fairleads) {
+  const auto pieces = around.pieces.find(line.body);
+  const auto centre = around.centres.find(line.body);
+  const Eigen::Vector2d from = line.fairlead_m->head<2>(), to = (-line.span()).head<2>();
+  if (line.anchor_body != "earth" || pieces == around.pieces.end() || centre == around.centres.end()) return;
+  if (to.norm() < 0.1 * line.length_m()) return;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::AlignedBox3d& piece : pieces->second) box.extend(piece);
+  const double half = 0.5 * box.diagonal().norm(), half_plan = 0.5 * box.sizes().head<2>().norm();
+  constexpr double least = -0.3, least_share = 0.2;  // of the cosine, 107 degrees; of half the shapes' diagonal in plan
+  const auto outwards = [&](const Eigen::Vector3d& middle) {
+    const Eigen::Vector2d out = from - middle.head<2>();
+    return out.norm() < 0.02 * half ? 1.0 : out.dot(to) / (out.norm() * to.norm());
+  };
+  if (outwards(centre->second) >= least) return;
+  const auto [enters, leaves] = crossing(pieces->second, from, to.normalized());
+  const double first = std::max(0.0, enters), last = std::min(leaves, to.norm());
+  const bool crosses = last - first > least_share * half_plan;
+  const double height = line.fairlead_m->z() - line.span().z() * 0.5 * (first + last) / to.norm();
+  if (crosses && height <= box.min().z()) return;
+  if (!crosses && (outwards(box.center()) >= least || outwards(fairleads) >= least)) return;
+  doubts.push_back({at + ".anchor_m",
+                    fmt::format("on the far side of body {}: the line leaves its fairlead at {:.3g} degrees from outwards{}",
+                                line.body, std::acos(outwards(centre->second)) / radians_per_degree,
+                                crosses ? fmt::format(" and goes {:.3g} m through it", last - first) : ""),
+                    "up to 107 degrees: lines do not cross the body", "look at the signs of anchor_m, or whose anchor it is"});
+}
+
 /// Where the line leaves its body: on the body, and on the side of its anchor.
-void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around) {
+void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOptions& line, const LineSurroundings& around,
+                    const std::vector<scene::Named<LineOptions>>& lines) {
   const auto found = around.shapes.find(line.body);
   if (found == around.shapes.end()) return;
   const Eigen::AlignedBox3d& box = found->second;
   const double half = 0.5 * box.diagonal().norm();
-  if (const double off = std::sqrt(box.squaredExteriorDistance(*line.fairlead_m)); off > 0.5 * half) {
+  if (const double off = std::sqrt(box.squaredExteriorDistance(*line.fairlead_m)); off > 0.5 * half)
     doubts.push_back({at + ".fairlead_m", fmt::format("{:.4g} m away from the shapes of body {}", off, line.body),
                       fmt::format("within {:.3g} m of them", 0.5 * half),
                       "look at its unit and sign, and whether it stands in place of the anchor"});
-    return;
-  }
-  const Eigen::Vector2d out = (*line.fairlead_m - box.center()).head<2>(), to = (-line.span()).head<2>();
-  if (out.norm() < 0.02 * half || to.norm() < 0.1 * line.length_m() || line.anchor_body != "earth") return;
-  constexpr double least = -0.3;  // of the cosine: 107 degrees
-  if (out.dot(to) < least * out.norm() * to.norm())
-    doubts.push_back({at + ".anchor_m",
-                      fmt::format("on the far side of body {}: the line leaves its fairlead at {:.3g} degrees from outwards",
-                                  line.body, std::acos(out.dot(to) / (out.norm() * to.norm())) / radians_per_degree),
-                      "up to 107 degrees: lines do not cross the body", "look at the signs of anchor_m, or whose anchor it is"});
+  else
+    doubt_far_side(doubts, at, line, around, mean_fairlead(lines, line.body));
 }
 
 /// Steel fills 7850 kg/m3, with wires and sheaths to 12000. With the bar's diameter, of which studless chain displaces 1.8 times,
@@ -259,7 +321,7 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     doubt_material(doubts, at, line, weight_N_m);
     doubt_spring(doubts, at, line, around);
     doubt_floats(doubts, at, line, around);
-    doubt_fairlead(doubts, at, line, around);
+    doubt_fairlead(doubts, at, line, around, lines);
     doubt_friction(doubts, at, line);
     doubt_diameter(doubts, at, line);
     doubt_coefficients(doubts, at, line);

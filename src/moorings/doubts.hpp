@@ -19,8 +19,10 @@ struct LineSurroundings {
   double water_density_kg_m3 = 1025.0, gravity_m_s2 = 9.80665;
   double step_s = 0.0;                                  ///< of the bodies
   std::map<std::string, double> masses_kg{};            ///< of each body
-  std::map<std::string, Eigen::AlignedBox3d> shapes{};  ///< round those of each body that has any, where the scene describes it
-  const Bed* bed = nullptr;                             ///< null: flat, at that depth
+  std::map<std::string, Eigen::AlignedBox3d> shapes{};  ///< round those of each body that has any, where it is described
+  std::map<std::string, std::vector<Eigen::AlignedBox3d>> pieces{};  ///< round each of them
+  std::map<std::string, Eigen::Vector3d> centres{};                  ///< of mass
+  const Bed* bed = nullptr;                                          ///< null: flat, at that depth
 };
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around);
 scene::Doubts junction_doubts(const std::vector<scene::Named<JunctionOptions>>& junctions, const LineSurroundings& around);

@@ -239,6 +239,56 @@ TEST_CASE("too few segments, and a step too long for a light body, are doubted",
   CHECK(keys(8e6) == "moorings.line_1.segments ");
 }
 
+TEST_CASE("a line through its body is doubted, lines beside an outrigger and under a hull are not", "[moorings][fast]") {
+  LineSurroundings around;
+  const auto said = [&](const Eigen::Vector3d& fairlead_m, const Eigen::Vector3d& anchor_m) {
+    LineOptions line;
+    line.body = "hull", line.fairlead_m = fairlead_m, line.anchor_m = anchor_m;
+    line.rest_length_m = line.span().norm(), line.axial_stiffness_N = 4e8;
+    std::string all;
+    for (const scene::Doubt& doubt : line_doubts({{"a", line}}, around)) all += doubt.key + " ";
+    return all;
+  };
+  const auto stands = [&](const std::vector<Eigen::AlignedBox3d>& pieces) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::AlignedBox3d& piece : pieces) box.extend(piece);
+    around.shapes["hull"] = box, around.pieces["hull"] = pieces, around.centres["hull"] = {0, 0, -2};
+  };
+  const Eigen::AlignedBox3d hull{Eigen::Vector3d(-10, -8, -10), Eigen::Vector3d(10, 8, 5)},
+      outrigger{Eigen::Vector3d(58, -2, -10), Eigen::Vector3d(62, 2, 5)};
+  const std::string far_side = "moorings.a.anchor_m ";
+  stands({hull, outrigger});  // the middle of both is 26 m from that of the hull
+  CHECK(said({10, 8, -5}, {200, 200, -60}).empty());
+  CHECK(said({60, 2, -5}, {0, 200, -60}).empty());
+  CHECK(said({10, 8, -5}, {-100, -200, -60}) == far_side);
+  CHECK(said({62, 0, -5}, {-200, 0, -15}) == far_side);
+  CHECK(said({62, 0, -5}, {-37, 171, -60}).empty());  // of a turret, 120 degrees from ahead
+  stands({hull});
+  CHECK(said({10, 0, -5}, {200, 0, -60}).empty());
+  CHECK(said({10, 0, -5}, {-200, 0, -60}) == far_side);
+  CHECK(said({10, 0, -10}, {-200, 0, -60}).empty());  // crossed lines under a barge
+  stands({{Eigen::Vector3d(41, -6, -14), Eigen::Vector3d(52, 6, 12)},
+          {Eigen::Vector3d(-29, 35, -14), Eigen::Vector3d(-18, 46, 12)},
+          {Eigen::Vector3d(-29, -46, -14), Eigen::Vector3d(-18, -35, 12)}});
+  CHECK(said({-23, 40, -7}, {-81, 141, -21}).empty());
+  CHECK(said({-23, 40, -7}, {-81, -141, -21}) == far_side);  // between the columns
+  std::vector<scene::Named<LineOptions>> spread;
+  for (const double x : {-40.0, 40.0})
+    for (const double y : {-110.0, 110.0}) {
+      LineOptions line;
+      line.body = "hull", line.fairlead_m = {x, y, -14}, line.anchor_m = {12 * x, 5 * y, -200};
+      line.rest_length_m = line.span().norm(), line.axial_stiffness_N = 1e9;
+      spread.emplace_back("line_" + std::to_string(spread.size()), line);
+    }
+  stands({{Eigen::Vector3d(-47, -112, -20), Eigen::Vector3d(47, -97, 12)},
+          {Eigen::Vector3d(-47, 97, -20), Eigen::Vector3d(47, 112, 12)}});
+  CHECK(line_doubts(spread, around).empty());
+  spread[0].options.anchor_m->y() *= -1.0;  // beside the body
+  const scene::Doubts doubts = line_doubts(spread, around);
+  REQUIRE(doubts.size() == 1);
+  CHECK(doubts[0].key == "moorings.line_0.anchor_m");
+}
+
 TEST_CASE("springs out by a thousand are doubted, tendons and soft lines of a model are not", "[moorings][fast]") {
   LineSurroundings around{20.6, 4.37e7};
   around.masses_kg["platform"] = 4.45e6;
