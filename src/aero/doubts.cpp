@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/turbine.hpp"
 #include "src/aero/wind_doubts.hpp"
 #include "src/scene/columns.hpp"
 
@@ -171,16 +172,25 @@ void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, const RotorOpti
                       fmt::format("{:.4g} m aside of the hub", aside),
                       fmt::format("up to {:.4g} m, {:g} of the blades' length", most_aside * radius, most_aside),
                       "look at its signs and unit, m, and at those of the hub"});
-  const Eigen::Vector3d upwind(foot[0] - start.hub.x(), foot[1] - start.hub.y(), 0.0);
+  const Eigen::Vector3d upwind(foot[0] - rotor.hub_m.x(), foot[1] - rotor.hub_m.y(), 0.0);  // as the scene describes them
   if (constexpr double level = 0.02; upwind.dot(rotor.axis) > 0.0 && rotor.axis.normalized().z() > level)
     doubts.push_back(
         {rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis",
          fmt::format("the axis rises downwind, by {:.3g} degrees", std::asin(rotor.axis.normalized().z()) / radians_per_degree),
          "one that falls: a rotor upwind of its tower is tilted to keep its blades away from it", "turn the sign of z"});
+  if (constexpr double bent = -0.01; upwind.dot(rotor.axis) < 0.0 && !rotor.turbine.empty())
+    if (const double tip = read_turbine(rotor.turbine).planform.prebend.back(); tip < bent * radius)
+      doubts.push_back({rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m",
+                        fmt::format("a rotor downwind of its tower with tips bent upwind by {:.3g} m", -tip),
+                        "blades that are bent away from the tower", "look at the sign of its x, or at the tower's foot"});
   constexpr double most_above = 0.2, most_drag = 3.0;  // DNV-RP-C205, table E-1: sections of any shape have up to 2.3
-  if (const double top = aero.tower->stations.back()[0]; top > hub_height + most_above * radius)
+  const double top = aero.tower->stations.back()[0];
+  if (top > hub_height + most_above * radius)
     doubts.push_back({"aero.tower.stations", fmt::format("a top at {:.4g} m where the hub is at {:.4g} m", top, hub_height),
                       "a top at the hub's height", "look at its unit: m above still water"});
+  if (constexpr double least_top = 0.6; top < least_top * hub_height)
+    doubts.push_back({"aero.tower.stations", fmt::format("a top at {:.4g} m where the hub is at {:.4g} m", top, hub_height),
+                      "a top at the hub's height", "look at its unit: m above still water, and whether a station is missing"});
   for (const auto& [height, diameter, drag] : aero.tower->stations)
     if (drag > most_drag) {
       doubts.push_back({"aero.tower.stations", fmt::format("a drag coefficient of {:.4g}", drag),
@@ -193,6 +203,21 @@ void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, const RotorOpti
   if (thickest > most * radius)
     doubts.push_back({"aero.tower.stations", fmt::format("a diameter of {:.4g} m behind blades of {:.4g} m", thickest, radius),
                       fmt::format("up to {:g} of their length", most), "look at its unit: m, not mm"});
+  // At the foot, of steel: 0.07 (IEA 22 MW) to 0.1 of it. Thrust times height bends it, and diameters cubed bear that.
+  constexpr double least = 0.05, large = 30.0, foot_share = 0.4;
+  if (thickest < least * radius && radius > large && aero.tower->stations.front()[0] < foot_share * hub_height)
+    doubts.push_back({"aero.tower.stations", fmt::format("a diameter of {:.4g} m behind blades of {:.4g} m", thickest, radius),
+                      fmt::format("{:g} of their length or more at its foot", least), "they are diameters, not radii; in m"});
+}
+
+/// Turbines cut out at 20 to 25 m/s, some at 34.
+void doubt_cut_out(scene::Doubts& doubts, const WindOptions& wind, const RotorAtStart& start) {
+  constexpr double most = 35.0, idle = 25.0, told = 60.0;
+  const double tip = std::abs(start.speed) * std::max(start.radius, start.least_radius);
+  if (start.parked || tip < idle || wind.speed_m_s <= most || wind.speed_m_s > told) return;
+  doubts.push_back({"wind.speed_m_s", fmt::format("{:.4g} m/s on a rotor whose tips turn at {:.3g} m/s", wind.speed_m_s, tip),
+                    fmt::format("up to {:g} m/s: turbines cut out at 20 to 34", most),
+                    fmt::format("in km/h or knots? give m/s ({:.3g} or {:.3g})", wind.speed_m_s / 3.6, 0.5144 * wind.speed_m_s)});
 }
 
 /// Open sides of a box: at 2.5 radii from the hub the rotor covers an eighth of a square section.
@@ -305,7 +330,7 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   doubt_sides(doubts, aero, start);
   doubt_tower(doubts, aero, rotor, start);
   doubt_air(doubts, aero, wind, start.radius);
-  if (blown) doubt_braking(doubts, rotor, wind, start);
+  if (blown) doubt_cut_out(doubts, wind, start), doubt_braking(doubts, rotor, wind, start);
   if (constexpr double most = 0.1; std::ranges::any_of(rotor.blade_damping, [](double d) { return d > most; }))
     doubts.push_back({"rotor.blade_damping", fmt::format("{:.4g} of critical", std::ranges::max(rotor.blade_damping)),
                       fmt::format("up to {:g}: blades have 0.002 to 0.03", most), "it is a share, not per cent"});

@@ -22,7 +22,7 @@ void doubt_wind(scene::Doubts& doubts, const WindOptions& wind) {
   if (wind.law != WindLaw::uniform && *wind.reference_height_m < 5.0)
     doubts.push_back({"wind.reference_height_m", fmt::format("{:.4g} m", *wind.reference_height_m),
                       "5 m or more: 10 m of weather reports, or the hub's height", "look at its unit: m"});
-  if (constexpr double most = 500.0; wind.law != WindLaw::uniform && *wind.reference_height_m > most)
+  if (constexpr double most = 300.0; wind.law != WindLaw::uniform && *wind.reference_height_m > most)
     doubts.push_back({"wind.reference_height_m", fmt::format("{:.4g} m", *wind.reference_height_m),
                       fmt::format("up to {:g} m: the laws hold in the lowest few hundred metres", most), "look at its unit: m"});
   if (wind.law == WindLaw::power && (wind.shear_exponent < 0.0 || wind.shear_exponent > 0.6))

@@ -10,11 +10,10 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
-#include "src/aero/bem.hpp"
 #include "src/aero/operation.hpp"
-#include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/rotor_doubts.hpp"
 
 namespace spindrift::app {
 
@@ -117,14 +116,8 @@ void print_rotor_at_start(const coupling::Scenario& s) {
               .radius = coupling::rotor_radius(s),
               .load_by = {},
               .has_power = true};
-  if (const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine); !turbine.polars.empty()) {
-    const aero::BladeElementMomentum elements(turbine, "madsen", s.environment.air_density_kg_m3);
-    Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
-    up = up.norm() < 1e-6 ? Eigen::Vector3d::UnitX() : up.normalized();
-    const aero::DiscLoad load =
-        elements(wind, {Eigen::Vector3d::Zero(), rotor.speed * axis, axis, up, rotor.azimuth, rotor.blade_pitch, rotor.hub_m});
-    now.load_by = "blade elements", now.thrust = load.force.dot(axis), now.power = load.moment.dot(axis) * rotor.speed;
-  }
+  if (const std::optional<aero::RotorLoad> load = coupling::standing_rotor_load(s))
+    now.load_by = "blade elements", now.thrust = load->thrust, now.power = load->power;
   print(s, now);
 }
 

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/aero/bem.hpp"
 #include "src/aero/blade_roots.hpp"
 #include "src/aero/control_doubts.hpp"
 #include "src/aero/doubts.hpp"
 #include "src/aero/flexible_blades.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine_doubts.hpp"
+#include "src/aero/wind.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
 
@@ -176,8 +178,9 @@ scene::Doubts rotor_doubts(const Scenario& s, const RotorSource& of, const Start
   rotor.radius = of.radius;
   if (rotor.radius == 0.0) rotor.least_radius = least_radius(s);
   if (s.aero.model != "blade_resolved") rotor.reynolds = of.loads.reynolds(0.0, now);
-  if (!s.resolves_air()) {
-    const aero::RotorLoad load = of.loads.load(0.0, now);
+  if (const aero::RotorLoad load = of.loads.load(0.0, now); s.resolves_air()) {  // by blade elements
+    if (load.torque != 0.0) rotor.thrust = load.thrust, rotor.power = load.power;
+  } else {
     rotor.thrust = load.thrust;
     if (s.aero.model == "bem" || load.torque != 0.0) rotor.power = load.power;
     if (carried > 0.0 && std::abs(load.thrust) > 0.5 * carried)
@@ -228,10 +231,25 @@ scene::Doubts rotor_file_doubts(const Scenario& s, std::set<std::string>& told) 
   return doubts;
 }
 
+std::optional<aero::RotorLoad> standing_rotor_load(const Scenario& s) {
+  const aero::Turbine turbine = aero::read_turbine(s.rotor.turbine);
+  if (turbine.polars.empty()) return std::nullopt;
+  const aero::RotorOptions rotor = placed_rotor(s).rotor;
+  const Eigen::Vector3d axis = rotor.axis.normalized();
+  const aero::BladeElementMomentum elements(turbine, "madsen", s.environment.air_density_kg_m3);
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ() - axis.z() * axis;
+  up = up.norm() < 1e-6 ? Eigen::Vector3d::UnitX() : up.normalized();
+  const aero::DiscLoad load = elements(aero::wind_of(s.wind, wind_site(s)), {Eigen::Vector3d::Zero(), rotor.speed * axis, axis,
+                                                                             up, rotor.azimuth, rotor.blade_pitch, rotor.hub_m});
+  const double torque = load.moment.dot(axis);
+  return aero::RotorLoad{load.force.dot(axis), torque, torque * rotor.speed, torque, load.force, load.moment};
+}
+
 scene::Doubts standing_rotor_doubts(const Scenario& s) {
   const aero::RotorOptions rotor = placed_rotor(s).rotor;
-  const aero::RotorAtStart start{
+  aero::RotorAtStart start{
       .hub = rotor.hub_m, .axis = rotor.axis, .speed = rotor.speed, .speed_key = speed_key(s), .radius = rotor_radius(s)};
+  if (const std::optional<aero::RotorLoad> load = standing_rotor_load(s)) start.thrust = load->thrust, start.power = load->power;
   scene::Doubts all = aero::rotor_doubts(s.aero, rotor, s.wind, s.environment.air_density_kg_m3, start);
   std::set<std::string> told;
   append(all, rotor_file_doubts(s, told));

@@ -1,7 +1,9 @@
 // Doubts about a rotor as a part of its scene: its place, its body, its files, its speed against windows and cells. Called by
-// doubts.cpp; tested by the blunders of tests/extremes/blunders.toml. SPDX-License-Identifier: Apache-2.0
+// doubts.cpp, the load of a standing rotor by src/app/rotor_start.cpp too; tested by the blunders of
+// tests/extremes/blunders.toml. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -14,6 +16,8 @@ namespace spindrift::coupling {
 scene::Doubts rotor_doubts(const Scenario& scenario, const RotorSource& rotor, const Start& start, double carried);
 /// Of its files that are not among those told of, which become so.
 scene::Doubts rotor_file_doubts(const Scenario& scenario, std::set<std::string>& told);
+/// At the start, of a rotor that stands in resolved air, by blade elements; absent where its turbine has no polars.
+std::optional<aero::RotorLoad> standing_rotor_load(const Scenario& scenario);
 /// Of a rotor that no body carries.
 scene::Doubts standing_rotor_doubts(const Scenario& scenario);
 
