@@ -35,6 +35,13 @@ scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
                       fmt::format("{:.4g} m at a period of {:.4g} s is {:.3g} of the length, {:.4g} m", w.height_m, w.period_s,
                                   steepness, length),
                       fmt::format("up to {:.3g}: steeper waves break", limit), "look at the height and the period"});
+  // Seas and swell have 0.001 of it or more; those that only linear answers are wanted of may have less, in regular waves.
+  if (const double least = model.regular ? 2e-4 : 4e-4; steepness < least)
+    doubts.push_back({"waves.height_m",
+                      fmt::format("{:.4g} m at a period of {:.4g} s is {:.2g} of the length, {:.4g} m", w.height_m, w.period_s,
+                                  steepness, length),
+                      fmt::format("{:g} of it or more: even swell has 0.001", least),
+                      "look at the unit of the height, m, and at the period"});
   if (w.height_m > 0.78 * e.water_depth)
     doubts.push_back({"waves.height_m", fmt::format("{:.4g} m in water {:.4g} m deep", w.height_m, e.water_depth),
                       "up to 0.78 of the depth (McCowan 1894)", "look at environment.water_depth_m"});
@@ -66,23 +73,33 @@ void doubt_water(scene::Doubts& doubts, const SeaEnvironment& e) {
                       "look at its sign and unit"});
 }
 
+/// Of cylinders DNV-RP-C205 (section 6.7, appendix E) has a drag of 0.4 to 1.2 and an added mass from 0.6 on; none is 0.
+void doubt_coefficient(scene::Doubts& doubts, const std::string& key, double value, const std::string& of, bool axial) {
+  const double least = axial ? 0.0 : 0.05, most = axial ? 12.0 : 3.0;
+  if (value > most)
+    doubts.push_back({key, fmt::format("{:.4g}{}", value, of), fmt::format("up to {:.4g} (DNV-RP-C205)", most),
+                      "coefficients have no unit; look at the point"});
+  else if (value > 0.0 && value < least)
+    doubts.push_back({key, fmt::format("{:.4g}{}", value, of),
+                      fmt::format("{:g} or more, or 0: cylinders have 0.4 to 1.2", least),
+                      "coefficients have no unit and are not in per cent; look at the point"});
+}
+
 void doubt_coefficients(scene::Doubts& doubts, const SeaOptions& sea) {
-  for (const auto& [key, value, bound] : {std::tuple{"sea.drag_coefficient", sea.drag_coefficient, 3.0},
-                                          std::tuple{"sea.added_mass_coefficient", sea.added_mass_coefficient, 3.0},
-                                          std::tuple{"sea.axial_drag_coefficient", sea.axial_drag_coefficient, 12.0},
-                                          std::tuple{"sea.axial_added_mass_coefficient", sea.axial_added_mass_coefficient, 12.0}})
-    if (value > bound)
-      doubts.push_back({key, fmt::format("{:.4g}", value), fmt::format("up to {:.4g} (DNV-RP-C205)", bound),
-                        "coefficients have no unit; look at the point"});
+  const auto doubt = [&](const std::string& at, const std::string& of, double drag, double mass, double axial_drag,
+                         double axial_mass) {
+    doubt_coefficient(doubts, at + "drag_coefficient", drag, of, false);
+    doubt_coefficient(doubts, at + "added_mass_coefficient", mass, of, false);
+    doubt_coefficient(doubts, at + "axial_drag_coefficient", axial_drag, of, true);
+    doubt_coefficient(doubts, at + "axial_added_mass_coefficient", axial_mass, of, true);
+  };
+  doubt("sea.", "", sea.drag_coefficient, sea.added_mass_coefficient, sea.axial_drag_coefficient,
+        sea.axial_added_mass_coefficient);
   for (std::size_t n = 0; n < sea.coefficients.size(); ++n) {
     const CoefficientsOptions& c = sea.coefficients[n];
-    for (const auto& [key, value, bound] : {std::tuple{"drag_coefficient", c.drag_coefficient, 3.0},
-                                            std::tuple{"added_mass_coefficient", c.added_mass_coefficient, 3.0},
-                                            std::tuple{"axial_drag_coefficient", c.axial_drag_coefficient, 12.0},
-                                            std::tuple{"axial_added_mass_coefficient", c.axial_added_mass_coefficient, 12.0}})
-      if (value && *value > bound)
-        doubts.push_back({fmt::format("sea.coefficients[{}].{}", n, key), fmt::format("{:.4g} of {}", *value, c.cylinder),
-                          fmt::format("up to {:.4g} (DNV-RP-C205)", bound), "coefficients have no unit; look at the point"});
+    doubt(fmt::format("sea.coefficients[{}].", n), " of " + c.cylinder, c.drag_coefficient.value_or(0.0),
+          c.added_mass_coefficient.value_or(0.0), c.axial_drag_coefficient.value_or(0.0),
+          c.axial_added_mass_coefficient.value_or(0.0));
   }
 }
 
@@ -180,6 +197,20 @@ void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOpti
                       fmt::format("{:g} to {:g} times the height", least, most), "look at its unit: m, from end to end"});
 }
 
+/// Waves that a body hardly feels: floats of turbines are up to 100 m wide, in waves of 10 m and more.
+void doubt_ripples(scene::Doubts& doubts, double length, const WavesOptions& waves, const BodiesInSea& bodies) {
+  constexpr double least = 0.05;
+  for (const auto& [name, box] : bodies.boxes)
+    if (const double size = box.sizes().head<2>().maxCoeff(); box.min().z() < 0.0 && length < least * size) {
+      doubts.push_back(
+          {"waves.period_s",
+           fmt::format("{:.4g} s, waves {:.3g} m long, where body {} is {:.3g} m wide", waves.period_s, length, name, size),
+           fmt::format("{:g} of its width or more", least),
+           "look at its unit, s, and whether it is a frequency or that of a model"});
+      return;
+    }
+}
+
 /// Numbers of the particles that decide cost or damping.
 void doubt_schemes(scene::Doubts& doubts, const ParticleOptions& p, const SeaEnvironment& e, const BodiesInSea& bodies) {
   constexpr double most = 60.0;
@@ -220,6 +251,7 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
     doubts.push_back({"sea.current_profile", fmt::format("rows from z = {:.4g} m on", profile.front()[0]),
                       "rows under water, z below zero", "look at their sign: up is positive, depths are negative"});
   const bool wavy = waves.model != "none" && waves.period_s > 0.0;
+  if (wavy) doubt_ripples(doubts, wave_length(waves.period_s, e), waves, bodies);
   if (sea.model == "morison" && sea.strip_length_m < 0.01 * bodies.draft)
     doubts.push_back({"sea.strip_length_m", fmt::format("{:.4g} m along a draft of {:.4g} m", sea.strip_length_m, bodies.draft),
                       "a hundredth of the draft or more", "the cost goes with their number; look at its unit: m"});
