@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "src/bodies/extent.hpp"
+#include "src/scene/columns.hpp"
 
 namespace spindrift::bodies {
 
@@ -23,6 +24,10 @@ void doubt_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptio
                       "0.05 to 4 times its half diagonal", advice});
   else if (size == 0.0 && most > 300.0)
     doubts.push_back({at + ".inertia_kg_m2", what, "up to 300 m", advice});
+  // A ball of a thousandth of a kg/m3, of which air has 1.2; blades with their hub are as thin as one of air.
+  if (const double thin = std::sqrt(0.4) * std::cbrt(3.0 * body.mass_kg / (4.0 * pi * 1e-3)); size == 0.0 && most > thin)
+    doubts.push_back({at + ".inertia_kg_m2", fmt::format("{} with a mass of {:.4g} kg", what, body.mass_kg),
+                      fmt::format("up to {:.3g} m, that of a ball of 0.001 kg/m3", thin), advice});
   // A solid ball of steel, 7850 kg/m3, has the least inertia that steel can have; blades and nacelles have a hundred times that.
   const double ball = std::sqrt(0.4) * std::cbrt(3.0 * body.mass_kg / (4.0 * pi * 7850.0));
   if (size == 0.0 && most > 0.0 && most < 0.5 * ball)
@@ -51,14 +56,18 @@ void doubt_axes_of_inertia(scene::Doubts& doubts, const std::string& at, const B
   }
 }
 
-/// Mass that lies between two planes at distances a and b of its centre has a mean square of the distance of a b at most. Where
-/// the scene shows how high a body reaches, none of its mass is beyond: an inertia about the keel or the water's surface is
-/// larger. Hulls with their towers have .4 to .8 of that radius, the platform of Leble & Barakos (2016) 1.02.
-void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body, Eigen::AlignedBox3d box,
-                            double top, bool planar) {
-  constexpr double most = 1.15;
-  box.extend(Eigen::Vector3d(box.center().x(), box.center().y(), top)).extend(body.centre_m);
-  const Eigen::Vector3d squares = (box.max() - body.centre_m).cwiseProduct(body.centre_m - box.min());
+/// "about the keel it would be m 42^2 = 1.42e+10 kg m2 larger".
+std::string about_the_keel(const BodyOptions& body, const Eigen::AlignedBox3d& box) {
+  const double arm = body.centre_m.z() - box.min().z();
+  return fmt::format("it is about the centre of mass; about the keel it would be m {:.3g}^2, {:.3g} kg m2, larger", arm,
+                     body.mass_kg * arm * arm);
+}
+
+/// Mass that lies between two planes at distances a and b of its centre has a mean square of the distance of a b at most: an
+/// inertia about the keel or the water's surface is larger. `reach`: round the body's mass, as the scene shows it.
+void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
+                            const Eigen::AlignedBox3d& reach, double most, const std::string& keel, bool planar) {
+  const Eigen::Vector3d squares = (reach.max() - body.centre_m).cwiseProduct(body.centre_m - reach.min());
   for (int axis = 0; axis < 3; ++axis) {
     if (planar && axis != 1) continue;
     const double limit = std::sqrt(squares.sum() - squares[axis]);
@@ -67,10 +76,29 @@ void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const 
     doubts.push_back({at + ".inertia_kg_m2",
                       fmt::format("a radius of gyration of {:.3g} m about {}, where mass that lies within its shapes and up to "
                                   "{:.4g} m has {:.3g} m at most",
-                                  radius, "xyz"[axis], top, limit),
-                      fmt::format("up to {:g} times that", most),
-                      "it is about the centre of mass, not about the keel or the water's surface; look at the unit, kg m2, too"});
+                                  radius, "xyz"[axis], reach.max().z(), limit),
+                      fmt::format("up to {:g} times that", most), keel + "; look at the unit, kg m2, too"});
     return;
+  }
+}
+
+/// Where the scene shows how high a body reaches, none of its mass is beyond: hulls with their towers have .4 to .8 of the
+/// greatest radius, the platform of Leble & Barakos (2016) 1.02. Where it does not, a spar may carry a turbine that is part of
+/// its mass: .2 of it, with which it hardly floats upright, 150 m over a hull of 130 m makes 1.03, the OC3 spar has .8. Of wider
+/// floats no such bound holds.
+void doubt_reach_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
+                            const BodySurroundings& around) {
+  constexpr double most_shown = 1.15, most_hidden = 1.03, slender = 4.0;
+  const Eigen::AlignedBox3d box = bounds(body);
+  Eigen::AlignedBox3d reach;
+  for (const Eigen::AlignedBox3d& piece : pieces(body)) reach.extend(piece);
+  const std::string keel = about_the_keel(body, reach);
+  if (around.top) {
+    reach = box;
+    reach.extend(Eigen::Vector3d(box.center().x(), box.center().y(), *around.top)).extend(body.centre_m);
+    doubt_point_of_inertia(doubts, at, body, reach, most_shown, keel, around.planar);
+  } else if (reach.contains(body.centre_m) && reach.sizes().z() > slender * reach.sizes().head<2>().maxCoeff()) {
+    doubt_point_of_inertia(doubts, at, body, reach, most_hidden, keel, around.planar);
   }
 }
 
@@ -84,8 +112,7 @@ scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& aro
     const std::size_t before = doubts.size();
     doubt_inertia(doubts, at, body, size);
     if (size > 0.0 && doubts.size() == before) doubt_axes_of_inertia(doubts, at, body, bounds(body), around.planar);
-    if (size > 0.0 && around.top && doubts.size() == before)
-      doubt_point_of_inertia(doubts, at, body, bounds(body), *around.top, around.planar);
+    if (size > 0.0 && doubts.size() == before) doubt_reach_of_inertia(doubts, at, body, around);
     if (const double off = body.displacement_m.norm(); size > 0.0 && off > 5.0 * size)
       doubts.push_back({at + ".displacement_m", fmt::format("starts {:.4g} m from where it is described", off),
                         fmt::format("up to five times half its diagonal, {:.3g} m", 5.0 * size), "look at its unit: m"});
@@ -94,6 +121,10 @@ scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& aro
         doubts.push_back({at + ".centre_m", fmt::format("{:.4g} m away from its shapes", off),
                           fmt::format("within {:.3g} m of them", 2.0 * size),
                           "look at the place of the centre of mass and of the shapes: both in earth coordinates"});
+    if (body.reference_m && size > 0.0)
+      if (const double over = std::abs(body.reference_m->z() - body.centre_m.z()); over > 5.0 * size)
+        doubts.push_back({at + ".reference_m", fmt::format("{:.4g} m over or under the centre of mass", over),
+                          fmt::format("up to five times half the body's diagonal, {:.3g} m", 5.0 * size), "look at its unit: m"});
     if (const double turned = body.rotation.cwiseAbs().maxCoeff() / radians_per_degree; turned > 60.0)
       doubts.push_back({at, fmt::format("starts turned by {:.4g} degrees", turned), "up to 60 degrees",
                         "look at roll_deg, pitch_deg and yaw_deg"});
@@ -105,6 +136,25 @@ scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& aro
   }
   return doubts;
 }
+
+namespace {
+
+/// Tubes of towers and monopiles are 50 to 300 times as wide as their walls are thick, thick pipes 10 times, rods twice.
+void doubt_walls(scene::Doubts& doubts, const std::string& at, const BeamOptions& beam) {
+  constexpr double least = 6.0, most = 1000.0, solid = 2.0;
+  const scene::Columns file = scene::read_columns(beam.properties);
+  if (!file.has("diameter_m") || !file.has("thickness_m")) return;
+  const auto wide = file["diameter_m"], thick = file["thickness_m"];
+  for (std::size_t n = 0; n < wide.size(); ++n) {
+    if (const double ratio = wide[n] / thick[n]; (ratio >= least && ratio <= most) || ratio < 1.001 * solid) continue;
+    doubts.push_back({at + ".properties", fmt::format("a wall of {:.4g} m round {:.4g} m", thick[n], wide[n]),
+                      fmt::format("a diameter of {:g} to {:g} times the wall: towers have 50 to 300", least, most),
+                      "look at the units of diameter_m and thickness_m: m, not cm or mm"});
+    return;
+  }
+}
+
+}  // namespace
 
 /// Wood has 1e10 Pa and 500 kg/m3, concrete 3e10 and 2400, glass fibre 4e10 and 1900, steel 2.1e11 and 7850. Moduli of what is
 /// alike in all directions stand in a ratio of 2 to 3 (2 (1 + nu)), those of wood and fibres along and across in one of up to 20.
@@ -126,6 +176,7 @@ scene::Doubts beam_doubts(const NamedBeams& beams) {
     if (const double most = *std::ranges::max_element(beam.damping); most > 0.1)
       doubts.push_back({at + ".damping", fmt::format("{:.4g} of critical", most), "up to 0.1: steel towers have 0.002 to 0.02",
                         "it is a share, not per cent"});
+    doubt_walls(doubts, at, beam);
   }
   return doubts;
 }

@@ -225,6 +225,43 @@ void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, cons
   }
 }
 
+/// A tower that the thrust on its top bends, clamped at its foot: towers of steel lean by 0.3 to 1.5 % of their length at rated
+/// thrust, and yield at some 3 %.
+void doubt_lean(scene::Doubts& doubts, const FloatingSystem& floating, const aero::RotorLoads& rotor, const Start& start) {
+  constexpr double most = 0.03, near = 0.3;
+  const aero::RotorState now = rotor.state(0.0, start.state.motions);
+  const double thrust = std::abs(rotor.load(0.0, now).thrust);
+  for (const auto& [name, beam] : floating.scenario().beams) {
+    const double length = (beam.end_m - beam.start_m).norm();
+    if ((now.hub - beam.end_m).norm() > near * length) continue;
+    const beam::Properties p = read_properties(beam);
+    double lean = 0.0;
+    for (std::size_t n = 1; n < p.position.size(); ++n) {
+      const double step = p.position[n] - p.position[n - 1], arm = length - 0.5 * (p.position[n] + p.position[n - 1]);
+      lean += thrust * arm * arm * step / (0.5 * (p.bending_x[n] + p.bending_x[n - 1]));
+    }
+    if (lean > most * length)
+      doubts.push_back({"beams." + name,
+                        fmt::format("the thrust of {:.3g} kN bends its end by {:.3g} m, {:.2g} % of its length", 1e-3 * thrust,
+                                    lean, 100.0 * lean / length),
+                        fmt::format("up to {:g} %: steel yields there", 100.0 * most),
+                        "look at the units of its properties and moduli, and whether diameters are radii"});
+  }
+}
+
+/// A body without shapes on the end of a tower is near that end: nacelles reach some 15 m from towers of 100 m.
+void doubt_tower_head(scene::Doubts& doubts, const Scenario& s) {
+  constexpr double most = 0.3;
+  for (const auto& [name, beam] : s.beams)
+    for (const auto& [body_name, body] : s.bodies) {
+      const double off = (body.centre_m - beam.end_m).norm(), length = (beam.end_m - beam.start_m).norm();
+      if (body_name != beam.bodies[1] || bodies::extent(body) > 0.0 || off <= most * length) continue;
+      doubts.push_back({"bodies." + body_name + ".centre_m", fmt::format("{:.4g} m from the end of beam {}", off, name),
+                        fmt::format("up to {:.3g} m, {:g} of the beam's length", most * length, most),
+                        "look at its unit, m, and at end_m of the beam: both in earth coordinates"});
+    }
+}
+
 /// Shorter than any swing of the bodies.
 void doubt_length(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
   const Scenario& s = floating.scenario();
@@ -238,10 +275,10 @@ void doubt_length(scene::Doubts& doubts, const FloatingSystem& floating, const S
                       "half a period at least", "look at its unit: seconds"});
 }
 
-/// Damping that stops a body at once. Floats of any size swing in times of sqrt(size / g) (Froude), and are damped in longer
-/// ones.
+/// Damping that stops a body at once, or hardly at all. Floats of any size swing in times of sqrt(size / g) (Froude), and are
+/// damped in longer ones: by some per cent of critical, within 10 to 100 of these times.
 void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
-  constexpr double least = 0.2;
+  constexpr double least = 0.2, most = 1000.0;
   for (std::size_t n = 0; n < s.sea.damping.size(); ++n)
     for (const auto& [name, body] : s.bodies) {
       const double size = bodies::extent(body);
@@ -254,13 +291,17 @@ void doubt_damping(scene::Doubts& doubts, const Scenario& s) {
           doubts.push_back({fmt::format("sea.damping[{}].{}", n, key), fmt::format("stops body {} within {:.2g} s", name, decays),
                             fmt::format("{:.2g} s or more, {:g} of sqrt(size / g)", least * natural, least),
                             "look at its unit: N s/m, N m s"});
+        else if (decays > most * natural)
+          doubts.push_back(
+              {fmt::format("sea.damping[{}].{}", n, key),
+               fmt::format("slows body {} within {:.2g} s, {:.2g} of critical", name, decays, 0.5 * natural / decays),
+               fmt::format("up to {:.2g} s, {:g} of sqrt(size / g)", most * natural, most),
+               "look at its unit: N s/m, not kN s/m; N m s"});
       };
       if (force > 0.0) tell("force_N_s_m", body.mass_kg / force);
-      for (int axis = 0; axis < 3; ++axis)
-        if (moments[axis] > 0.0 && body.inertia_kg_m2(axis, axis) < least * natural * moments[axis]) {
-          tell("moment_N_m_s", body.inertia_kg_m2(axis, axis) / moments[axis]);
-          break;
-        }
+      double fastest = 0.0;
+      for (int axis = 0; axis < 3; ++axis) fastest = std::max(fastest, moments[axis] / body.inertia_kg_m2(axis, axis));
+      if (fastest > 0.0) tell("moment_N_m_s", 1.0 / fastest);
     }
 }
 
@@ -462,6 +503,9 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
                                   std::floor(s.time.end_s / std::max(interval, s.time.window_s))),
                       fmt::format("up to {:g} in a run", most_checkpoints),
                       "look at its unit: s; checkpoint.wall_interval_s saves by the clock, at little cost"});
+  if (constexpr double least = 1.0; s.checkpoint.wall_interval_s > 0.0 && s.checkpoint.wall_interval_s < least)
+    doubts.push_back({"checkpoint.wall_interval_s", fmt::format("{:.4g} s", s.checkpoint.wall_interval_s),
+                      fmt::format("{:g} s or more; 600 by default", least), "in hours? give s"});
   if (s.sea.settle_s() > 10.0 * s.time.end_s)
     doubts.push_back({"sea.initial.settle_s", fmt::format("{:.4g} s before a run of {:.4g} s", s.sea.settle_s(), s.time.end_s),
                       "up to ten times the run", "look at its unit: s"});
@@ -556,6 +600,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   const Scenario& s = floating.scenario();
   scene::Doubts all = body_doubts(s.bodies, {tower_top(s), s.has_particles() && s.sea.particles->planar()});
   append(all, bodies::beam_doubts(s.beams));
+  doubt_tower_head(all, s);
   moorings::LineSurroundings around{s.has_sea() ? s.environment.water_depth_m : -1.0, weight(floating),
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
   std::optional<Bed> bed;
@@ -603,6 +648,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   doubt_displaced_equilibrium(all, floating, start);
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const RotorSource& rotor) {
     doubt_resonance(found, floating, rotor.loads, start, stability);
+    doubt_lean(found, floating, rotor.loads, start);
   });
   doubt_length(all, floating, stability);
   doubt_window(all, floating, stability);
