@@ -119,6 +119,9 @@ void doubt_far_side(scene::Doubts& doubts, const GenerateOptions& grid, double l
   if (length > 0.0 && grid.far_m < 8.0 * length)
     doubts.push_back({"aero.flow.generate.far_m", fmt::format("{:.4g} m from a body of {:.4g} m", grid.far_m, length),
                       "8 lengths or more", "a near far side holds the flow as a tunnel's walls would"});
+  if (constexpr double most = 1000.0; length > 0.0 && grid.far_m > most * length)
+    doubts.push_back({"aero.flow.generate.far_m", fmt::format("{:.4g} m from a body of {:.4g} m", grid.far_m, length),
+                      fmt::format("up to {:g} lengths; 20 to 500 are usual", most), "look at its unit: m, not mm"});
 }
 
 void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_density, const RotorAtStart& start, bool blown) {

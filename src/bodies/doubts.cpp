@@ -88,18 +88,14 @@ void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const 
 /// floats no such bound holds.
 void doubt_reach_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
                             const BodySurroundings& around) {
-  constexpr double most_shown = 1.15, most_hidden = 1.03, slender = 4.0;
-  const Eigen::AlignedBox3d box = bounds(body);
-  Eigen::AlignedBox3d reach;
-  for (const Eigen::AlignedBox3d& piece : pieces(body)) reach.extend(piece);
-  const std::string keel = about_the_keel(body, reach);
-  if (around.top) {
-    reach = box;
-    reach.extend(Eigen::Vector3d(box.center().x(), box.center().y(), *around.top)).extend(body.centre_m);
-    doubt_point_of_inertia(doubts, at, body, reach, most_shown, keel, around.planar);
-  } else if (reach.contains(body.centre_m) && reach.sizes().z() > slender * reach.sizes().head<2>().maxCoeff()) {
-    doubt_point_of_inertia(doubts, at, body, reach, most_hidden, keel, around.planar);
-  }
+  constexpr double most_wide = 1.15, most_spar = 1.03, slender = 4.0;
+  Eigen::AlignedBox3d shapes;
+  for (const Eigen::AlignedBox3d& piece : pieces(body)) shapes.extend(piece);
+  const bool spar = shapes.contains(body.centre_m) && shapes.sizes().z() > slender * shapes.sizes().head<2>().maxCoeff();
+  if (!spar && !around.top) return;
+  Eigen::AlignedBox3d reach = spar ? shapes : bounds(body);
+  if (around.top) reach.extend(Eigen::Vector3d(reach.center().x(), reach.center().y(), *around.top)).extend(body.centre_m);
+  doubt_point_of_inertia(doubts, at, body, reach, spar ? most_spar : most_wide, about_the_keel(body, shapes), around.planar);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "src/coupling/rotor_doubts.hpp"
 #include "src/moorings/bed_file.hpp"
 #include "src/moorings/doubts.hpp"
+#include "src/moorings/model.hpp"
 #include "src/scene/columns.hpp"
 #include "src/sea/doubts.hpp"
 
@@ -249,6 +250,20 @@ void doubt_lean(scene::Doubts& doubts, const FloatingSystem& floating, const aer
   }
 }
 
+/// Steps that cut the fastest motion of the bodies into many more than any integrator needs. Lines and fluids may need them.
+void doubt_fine_step(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  constexpr double most = 1e5;
+  const Scenario& s = floating.scenario();
+  const auto is_dynamic = [](const auto& line) { return bool(moorings::line_models().named(line.options.model).make_dynamic); };
+  if (floating.particle_plan() || s.resolves_air() || std::ranges::any_of(s.moorings, is_dynamic)) return;
+  double fastest = 0.0;
+  for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
+  if (fastest <= 0.0 || 2.0 * pi / fastest < most * s.time.step()) return;
+  doubts.push_back(
+      {"time.step_s", fmt::format("{:.4g} s where the fastest motion takes {:.3g} s", s.time.step(), 2.0 * pi / fastest),
+       fmt::format("up to {:g} steps to it: 50 to 1000 do", most), "the cost goes with their number; look at its unit: s"});
+}
+
 /// A body without shapes on the end of a tower is near that end: nacelles reach some 15 m from towers of 100 m.
 void doubt_tower_head(scene::Doubts& doubts, const Scenario& s) {
   constexpr double most = 0.3;
@@ -459,6 +474,9 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
     if (value > s.time.end_s)
       doubts.push_back({key, fmt::format("{:.4g} s in a run of {:.4g} s", value, s.time.end_s), "shorter than the run",
                         "the run ends before what grows is there; look at its unit: s"});
+  if (constexpr double least = 0.05; wavy && !as_usual && growth > 0.0 && growth < least * s.waves.period_s)
+    doubts.push_back({"waves.ramp_s", fmt::format("{:.4g} s under waves of {:.4g} s", growth, s.waves.period_s),
+                      "0, or a period or more", "waves of their full height meet the bodies at once; look at its unit: s"});
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
@@ -634,6 +652,7 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
+  if (!start.state.motions.empty()) doubt_statics(all, floating, start);  // first: rotors of what capsizes are doubted too
   const FullLoads full(floating);
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const RotorSource& rotor) {
     found = rotor_doubts(s, rotor, start, weight(floating));
@@ -644,13 +663,13 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   doubt_modes(all, floating, stability);
   doubt_rotors(all, floating,
                [&](scene::Doubts& found, const Scenario& s, const RotorSource&) { doubt_tuning(found, s, stability); });
-  doubt_statics(all, floating, start);
   doubt_displaced_equilibrium(all, floating, start);
   doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const RotorSource& rotor) {
     doubt_resonance(found, floating, rotor.loads, start, stability);
     doubt_lean(found, floating, rotor.loads, start);
   });
   doubt_length(all, floating, stability);
+  doubt_fine_step(all, floating, stability);
   doubt_window(all, floating, stability);
   return all;
 }
