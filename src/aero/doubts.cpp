@@ -164,24 +164,28 @@ void doubt_reynolds(scene::Doubts& doubts, const ReynoldsReach& reach) {
        "give polars there, or look at their reynolds and at the viscosity"});
 }
 
-/// Towers are about a tenth as thick as the blades are long, thinner under small rotors; they end below the hub or behind it.
+/// Towers are about a tenth as thick as the blades are long, thinner under small rotors; they end below the hub or behind it. Its
+/// foot is by the hub as the scene describes it, not where an equilibrium has taken it.
 void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, const RotorOptions& rotor, const RotorAtStart& start) {
-  const double radius = start.radius, hub_height = start.hub.z();
+  const double radius = start.radius, hub_height = rotor.hub_m.z();
   if (!aero.tower || radius <= 0.0) return;
   constexpr double most_aside = 0.5;
   const std::array<double, 2>& foot = rotor.tower_foot_m ? *rotor.tower_foot_m : aero.tower->foot_m;
-  if (const double aside = std::hypot(foot[0] - start.hub.x(), foot[1] - start.hub.y()); aside > most_aside * radius)
+  const Eigen::Vector2d behind(foot[0] - rotor.hub_m.x(), foot[1] - rotor.hub_m.y());
+  const Eigen::Vector2d behind_start(foot[0] - start.hub.x(), foot[1] - start.hub.y());
+  if (const double aside = std::min(behind.norm(), behind_start.norm()); aside > most_aside * radius)
     doubts.push_back({rotor.tower_foot_m ? "rotor.tower_foot_m" : "aero.tower.foot_m",
                       fmt::format("{:.4g} m aside of the hub", aside),
                       fmt::format("up to {:.4g} m, {:g} of the blades' length", most_aside * radius, most_aside),
                       "look at its signs and unit, m, and at those of the hub"});
-  const Eigen::Vector3d upwind(foot[0] - rotor.hub_m.x(), foot[1] - rotor.hub_m.y(), 0.0);  // as the scene describes them
-  if (constexpr double level = 0.02; upwind.dot(rotor.axis) > 0.0 && rotor.axis.normalized().z() > level)
+  const double along = behind.dot(rotor.axis.head<2>()), along_start = behind_start.dot(rotor.axis.head<2>());
+  const bool is_upwind = std::min(along, along_start) > 0.0, is_downwind = std::max(along, along_start) < 0.0;
+  if (constexpr double level = 0.02; is_upwind && rotor.axis.normalized().z() > level)
     doubts.push_back(
         {rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis",
          fmt::format("the axis rises downwind, by {:.3g} degrees", std::asin(rotor.axis.normalized().z()) / radians_per_degree),
          "one that falls: a rotor upwind of its tower is tilted to keep its blades away from it", "turn the sign of z"});
-  if (constexpr double bent = -0.01; upwind.dot(rotor.axis) < 0.0 && !rotor.turbine.empty())
+  if (constexpr double bent = -0.01; is_downwind && !rotor.turbine.empty())
     if (const double tip = read_turbine(rotor.turbine).planform.prebend.back(); tip < bent * radius)
       doubts.push_back({rotor.joint.empty() ? "rotor.hub_m" : "joints." + rotor.joint + ".point_m",
                         fmt::format("a rotor downwind of its tower with tips bent upwind by {:.3g} m", -tip),
