@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/waves/wavemaker.hpp"
 
 namespace spindrift::sea {
 
@@ -176,9 +177,10 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   }
 }
 
-/// Bodies beside the tank's walls, and the wavemaker. A piston's stroke is half the height of its wave in deep water, and in
-/// shallow water the height over 2 pi depths by the length (Dean & Dalrymple 1991, ch. 6).
-void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions& waves, const BodiesInSea& bodies) {
+/// Bodies beside the tank's walls, and the wavemaker: the stroke that is given against that of linear theory (Dean & Dalrymple
+/// 1991, ch. 6), of a piston half the height of its wave in deep water.
+void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions& waves, const SeaEnvironment& e,
+                   const BodiesInSea& bodies) {
   if (!sea.tank) return;
   constexpr double spacings = 2.0;
   for (const auto& [name, box] : bodies.boxes)
@@ -191,10 +193,17 @@ void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOpti
                         fmt::format("{:g} spacings at least", spacings), "take a wider tank: no particle fits between them"});
     }
   if (!sea.wavemaker || !sea.wavemaker->stroke_m || waves.height_m <= 0.0) return;
-  constexpr double least = 0.05, most = 20.0;
-  if (const double stroke = *sea.wavemaker->stroke_m; stroke < least * waves.height_m || stroke > most * waves.height_m)
-    doubts.push_back({"sea.wavemaker.stroke_m", fmt::format("{:.4g} m for waves {:.4g} m high", stroke, waves.height_m),
-                      fmt::format("{:g} to {:g} times the height", least, most), "look at its unit: m, from end to end"});
+  const double stroke = *sea.wavemaker->stroke_m;
+  const bool piston = sea.wavemaker->type == "piston" && waves.period_s > 0.0;
+  const double height =  // of its waves, for a stroke of 1 m
+      piston ? waves::piston_transfer(2.0 * pi * e.water_depth / wave_length(waves.period_s, e)) : 1.0;
+  const double usual = waves.height_m / height, least = piston ? 0.3 : 0.05, most = piston ? 3.0 : 20.0;
+  if (stroke < least * usual || stroke > most * usual)
+    doubts.push_back({"sea.wavemaker.stroke_m",
+                      fmt::format("{:.4g} m for waves {:.4g} m high{}", stroke, waves.height_m,
+                                  piston ? fmt::format(", which take {:.3g} m by linear theory", usual) : ""),
+                      fmt::format("{:g} to {:g} times {}", least, most, piston ? "that" : "the height"),
+                      "look at its unit: m, from end to end"});
 }
 
 /// Waves that a body hardly feels: floats of turbines are up to 100 m wide, in waves of 10 m and more.
@@ -263,7 +272,7 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
   doubt_tank(doubts, sea, waves, e, bodies);
-  doubt_in_tank(doubts, sea, waves, bodies);
+  doubt_in_tank(doubts, sea, waves, e, bodies);
   if (const double rate = sea.initial ? sea.initial->settle_damping_1_s : 0.0, swing = std::sqrt(e.gravity / e.water_depth);
       rate > 30.0 * swing)
     doubts.push_back({"sea.initial.settle_damping_1_s", fmt::format("{:.4g} 1/s, {:.3g} of sqrt(g / depth)", rate, rate / swing),
