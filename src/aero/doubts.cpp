@@ -127,8 +127,9 @@ void doubt_far_side(scene::Doubts& doubts, const GenerateOptions& grid, double l
 void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_density, const RotorAtStart& start, bool blown) {
   if (start.radius <= 0.0) return;
   const double area = pi * start.radius * start.radius;
-  // Turbines of 5 to 15 MW are rated at 320 to 410 W per square metre swept.
-  constexpr double most = 600.0;
+  // Turbines of 5 to 15 MW are rated at 320 to 410 W per square metre swept. A gust at the start finds blades pitched for the
+  // mean.
+  const double most = wind.turbulence ? 1200.0 : 600.0, least = wind.turbulence ? -most : 0.0;
   if (start.power && *start.power > most * area)
     doubts.push_back(
         {"rotor",
@@ -137,7 +138,7 @@ void doubt_load(scene::Doubts& doubts, const WindOptions& wind, double air_densi
          fmt::format("up to {:.0f} W/m2: above rated wind blades are pitched", most),
          "look at wind.speed_m_s; rotor.operating_point = \"table\" takes speed and pitch from the turbine's table, or give "
          "rotor.blade_pitch_deg"});
-  if (blown && start.power && *start.power < 0.0)
+  if (blown && start.power && *start.power < least * area)
     doubts.push_back({"rotor", fmt::format("a power of {:.3g} MW at the start: the rotor drives the air", 1e-6 * *start.power),
                       "above zero in wind", "look at the rotor's speed and rotor.blade_pitch_deg"});
   if (start.thrust && blown && wind.speed_m_s >= 3.0) {
