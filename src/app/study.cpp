@@ -80,6 +80,7 @@ Json of_load_cases(const scene::LoadCasesOptions& o) {
 struct Checked {
   std::string echo;
   Forecast forecast;
+  std::optional<double> end_s;  ///< of its history; a march that ends where it has settled has none
 };
 
 /// `forecasts`: with its forecast, for which the floating system is made; the replicas of a rung have that of the first.
@@ -87,12 +88,14 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
                 bool forecasts) {
   scene::Document document = scene::load(file, overrides, overrider);
   const coupling::Scenario scenario = coupling::read_scenario(document);
-  if (!forecasts) return {document.echo(), {}};
-  const double before = processor_seconds();
-  if (scenario.has_flow()) return {document.echo(), forecast_of_air(scenario)};
+  if (!forecasts) return {document.echo(), {}, {}};
+  const double before = processor_seconds(), end_s = scenario.time.end_s;
+  if (scenario.has_flow())
+    return {document.echo(), forecast_of_air(scenario),
+            scenario.aero.flow->time == "steady" ? std::nullopt : std::optional(end_s)};
   const ReadyScene ready = read_scene(file, overrides, overrider);
   const double start_s = processor_seconds() - before;
-  Checked checked{ready.echo, forecast(*ready.floating, ready.start)};
+  Checked checked{ready.echo, forecast(*ready.floating, ready.start), end_s};
   checked.forecast.core_seconds += start_s;
   return checked;
 }
@@ -115,15 +118,42 @@ void check_columns(const scene::Study& study, const std::string& rung, const std
     for (const std::string& column : study.load_cases->columns) check("load_cases.columns", column);
 }
 
-/// A reference from elsewhere must have them too.
-void check_history(const scene::Study& study) {
-  if (!study.reference || study.reference->history.empty()) return;
+struct TimeRange {
+  double from_s, to_s;
+};
+
+/// Times of a reference from elsewhere, which must have the columns too.
+std::optional<TimeRange> range_of_history(const scene::Study& study) {
+  if (!study.reference || study.reference->history.empty()) return {};
   const scene::Columns columns = scene::read_columns(study.reference->history);
   for (const auto& [metric, options] : study.metrics) static_cast<void>(columns[options.column]);
-  static_cast<void>(columns["time_s"]);
+  columns.require_rows(2);
+  columns.require_increasing("time_s", "a history goes forward in time");
+  return TimeRange{columns["time_s"].front(), columns["time_s"].back()};
 }
 
-Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector<scene::Problem>& problems) {
+/// A reference from elsewhere covers the time that each metric takes of a run, so that both are of the same time.
+void check_range(const scene::Study& study, const std::string& rung, double end_s, const TimeRange& reference,
+                 std::vector<scene::Problem>& problems) {
+  constexpr double least = 0.95;
+  for (const auto& [metric, options] : study.metrics) {
+    const double from_s = options.from_s, until_s = std::min(options.until_s.value_or(end_s), end_s);
+    const double both_s = std::min(until_s, reference.to_s) - std::max(from_s, reference.from_s);
+    if (until_s <= from_s || both_s >= least * (until_s - from_s)) continue;
+    const std::string key = "metrics." + metric;
+    if (std::ranges::any_of(problems, [&](const scene::Problem& p) { return p.key == key; })) continue;  // of a run before
+    problems.push_back(
+        {study.file, 0, key, "",
+         fmt::format(
+             "the reference {} covers {:g} to {:g} s, which is {:.3g} % of the {:g} to {:g} s taken of {}; at least {:g} % "
+             "are needed: give a longer history, or from_s and until_s within it",
+             study.reference->history, reference.from_s, reference.to_s, 100.0 * std::max(0.0, both_s) / (until_s - from_s),
+             from_s, until_s, rung, 100.0 * least)});
+  }
+}
+
+Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::optional<TimeRange>& reference,
+             std::vector<scene::Problem>& problems) {
   Json out{{"name", rung.name},
            {"variant", rung.variant},
            {"scene", fs::absolute(rung.scene).string()},
@@ -143,6 +173,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, std::vector
     if (!first) {
       first = scene.forecast;
       check_columns(study, rung.name, first->columns, problems);
+      if (reference && scene.end_s) check_range(study, rung.name, *scene.end_s, *reference, problems);
     }
     out["runs"].push_back(
         {{"name", replicas[std::size_t(n)].name.empty() ? rung.name : rung.name + "/" + replicas[std::size_t(n)].name},
@@ -161,7 +192,7 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
   if (world.size > 1)
     throw scene::SceneError({{arguments.file, 0, "", "", "a study starts its runs itself: call spindrift study without mpirun"}});
   const scene::Study study = scene::read_study(arguments.file, arguments.overrides);
-  check_history(study);
+  const std::optional<TimeRange> reference = range_of_history(study);
   const fs::path folder = arguments.out.empty() ? fs::path("runs") / fs::path(arguments.file).stem() : fs::path(arguments.out);
   if (fs::exists(folder / "history.csv") && !fs::exists(folder / "plan.json"))
     throw io::InputError(fmt::format("--out {}: is the folder of a run; a study has a folder of its own, name another with --out",
@@ -183,7 +214,7 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
     plan["reference"] = {
         {"variant", r->variant}, {"history", r->history.empty() ? "" : fs::absolute(r->history).string()}, {"limit", r->limit}};
   std::vector<scene::Problem> problems;
-  for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, problems));
+  for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, reference, problems));
   if (!problems.empty()) throw scene::SceneError(problems);
 
   if (!arguments.dry_run) fs::create_directories(folder);

@@ -126,8 +126,7 @@ class Judge:
         if reference["variant"]:
             theirs = self.quantities.get(reference["variant"], [[]] * len(self.metrics))[m]
         elif reference["history"]:
-            time, column = self.history(reference["history"])
-            theirs = [measures.quantity(metric, time, column(metric["column"]))] * len(mine)
+            theirs = [self._of_file(rung, metric)] * len(mine)
         else:
             limit = self._limit(rung, m)
             theirs, allowance = limit["values"], limit["allowance"]
@@ -135,6 +134,15 @@ class Judge:
         gaps = [measures.gap(metric, a, b) for a, b in pairs]
         known = [b for b in theirs if math.isfinite(b)]
         return gaps, sum(known) / len(known) if known else math.nan, allowance
+
+    def _of_file(self, rung, metric):
+        """What the metric takes from the reference's file, up to where the runs of the rung end."""
+        ends = [self.history(run["name"])[0][-1] for run in rung["runs"] if self._done(run)]
+        if not ends:
+            return math.nan
+        time, column = self.history(self.plan["reference"]["history"])
+        until = min(max(ends), math.inf if metric["until_s"] is None else metric["until_s"])
+        return measures.quantity({**metric, "until_s": until}, time, column(metric["column"]))
 
     def _history_differences(self, rung, metric):
         reference = self.plan["reference"]

@@ -131,7 +131,8 @@ const Section<ReferenceOptions>& reference_section() {
       Section<ReferenceOptions>("reference", "What errors are measured against.")
           .text("variant", &ReferenceOptions::variant, "Name of a configuration of this study.")
           .path("history", &ReferenceOptions::history,
-                "A history.csv from elsewhere that has time_s and the columns of the metrics.")
+                "A history.csv from elsewhere that has time_s and the columns of the metrics, and covers 95 % of the time that "
+                "each metric takes.")
           .text("limit", &ReferenceOptions::limit,
                 "Name of an axis whose values are numbers: Richardson's limit from its three finest, with "
                 "the order that they show.")

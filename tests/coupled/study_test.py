@@ -96,6 +96,29 @@ class Study(Folder):
             self.assertIn(said, done.stdout + done.stderr)
             self.assertFalse(self.ledgers())
 
+    def test_a_reference_from_elsewhere_covers_the_time_that_is_compared(self):
+        file = self.path / "elsewhere.csv"
+        text = STUDY.replace('variant = "base-step_0.025"', f'history = "{file}"').replace(
+            '"waves.components=40"]', '"waves.components=40", "time.end_s=60.0"]')
+
+        def said(end_s, *replacements):
+            file.write_text("time_s,buoy.z_m,buoy.pitch_deg\n" + "".join(f"{end_s * n / 100},{n % 3},{n % 2}\n" for n in range(101)))
+            changed = text
+            for old, new in replacements:
+                changed = changed.replace(old, new)
+            done = self.study(changed, "--dry-run")
+            return done.returncode, done.stdout + done.stderr
+
+        code, words = said(0.6)
+        self.assertEqual(code, 2, words)
+        self.assertIn(f"metrics.heave: the reference {file} covers 0 to 0.6 s, which is 1 % of the 0 to 60 s taken of base-step_0.1", words)
+        self.assertEqual(words.count("metrics.pitch"), 1, words)
+        self.assertEqual(said(56.0)[0], 2)
+        self.assertEqual(said(57.5)[0], 0)
+        self.assertEqual(said(30.0, ('column = "buoy.', 'until_s = 30.0\ncolumn = "buoy.'))[0], 0)
+        code, words = said(60.0, ('column = "buoy.z_m"', 'from_s = 50.0\nuntil_s = 200.0\ncolumn = "buoy.z_m"'))
+        self.assertEqual(code, 0, words)
+
     def test_a_target_out_of_reach_is_a_sentence_and_exit_code_6(self):
         done = self.study(STUDY.replace("target = 0.05", "target = 1e-9"))
         self.assertEqual(done.returncode, 6, done.stdout + done.stderr)

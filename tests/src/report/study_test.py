@@ -228,6 +228,12 @@ class Sources(unittest.TestCase):
         self.assertEqual(error["replicas"], 6)
         self.assertAlmostEqual(error["error"], 0.05, delta=0.01)
 
+    def test_a_reference_from_elsewhere_counts_up_to_the_end_of_the_runs(self):
+        study = Synthetic({"base": 0.0}, {"base": 1.0}, shared=0.0, own=0.0, reference={"variant": "", "history": "/long.csv", "limit": ""})
+        t = np.linspace(0.0, 100.0, 1001)  # the runs end at 10
+        study.histories["/long.csv"] = (t, lambda column: np.where(t <= 10.0, 5.0, 50.0))
+        self.assertAlmostEqual(study.judge().result()["rungs"][0]["errors"]["mean"]["error"], 0.0, places=9)
+
     def test_the_axes_that_matter_most_are_crossed(self):
         axes = [{"name": n, "values": ["a", "b"]} for n in ("small", "large", "middle")]
         offs, at = {"base": 0.0}, {"base": [0, 0, 0]}
