@@ -281,18 +281,20 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto topic = std::make_shared<std::string>();
     auto markdown = std::make_shared<bool>(false);
     CLI::App* command = cli.add_subcommand("reference", "Every scene key with type, unit, default, range and a sentence");
-    command->add_option("topic", *topic, "A section or a key");
+    command->add_option("topic", *topic, "A section or a key; with --columns what columns begin with, as sea, or a word");
     command->add_flag("--markdown", *markdown, "As inputs/REFERENCE.md");
     command->footer(
         "Examples:\n"
         "  spindrift reference waves\n"
         "  spindrift reference waves.height_m\n"
         "  spindrift reference precone_deg\n"
-        "  spindrift reference --columns");
+        "  spindrift reference --columns rotor");
     const auto columns = std::make_shared<bool>(false);
     command->add_flag("--columns", *columns, "Every column of history.csv instead, as in docs/reference/columns.md");
     command->callback([=, &chosen] {
-      chosen = [=](const auto& world) { return *columns ? reference_columns(world) : reference(*topic, *markdown, world); };
+      chosen = [=](const auto& world) {
+        return *columns ? reference_columns(*topic, world) : reference(*topic, *markdown, world);
+      };
     });
   }
   {

@@ -104,7 +104,7 @@ int check(const CheckArguments& arguments, const runtime::World& world);
 /// All of the reference, or what `topic` names (a section or a key); as Markdown for inputs/REFERENCE.md.
 int reference(const std::string& topic, bool markdown, const runtime::World& world);
 /// Every column of history.csv, as Markdown for docs/reference/columns.md.
-int reference_columns(const runtime::World& world);
+int reference_columns(const std::string& topic, const runtime::World& world);
 int study(const StudyArguments& arguments, const runtime::World& world);
 /// One line; `verbose`: all that the speed of this program depends on.
 std::string version(bool verbose);

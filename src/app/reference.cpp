@@ -3,12 +3,17 @@
 #include "src/scene/reference.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
 
 #include "src/aero/control_options.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/app/commands.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/run/flow_columns.hpp"
+#include "src/scene/error.hpp"
 #include "src/scene/study.hpp"
 
 namespace spindrift::app {
@@ -46,13 +51,50 @@ int reference(const std::string& topic, bool markdown, const runtime::World& wor
   return done;
 }
 
-int reference_columns(const runtime::World& world) {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// "rotor.blade_1" of "rotor.blade_1.".
+std::string stem(const io::ColumnSection& section) { return section.prefix.substr(0, section.prefix.size() - 1); }
+
+/// Sections whose names begin with the topic; where there are none, the columns that have it in their name or in what is said.
+std::vector<io::ColumnSection> sections_of(const std::string& topic) {
+  const std::vector<io::ColumnSection> all = run::all_columns();
+  const std::string word = lower(topic.ends_with('.') ? topic.substr(0, topic.size() - 1) : topic);
+  std::vector<io::ColumnSection> found;
+  for (const io::ColumnSection& section : all)
+    if (lower(section.prefix).starts_with(word + ".")) found.push_back(section);
+  if (!found.empty()) return found;
+  const auto has = [&](const std::string& text) { return lower(text).find(word) != std::string::npos; };
+  for (io::ColumnSection section : all) {
+    if (!has(section.when))
+      std::erase_if(section.columns, [&](const io::Column& c) { return !has(section.prefix + c.name) && !has(c.meaning); });
+    if (!section.columns.empty()) found.push_back(section);
+  }
+  if (!found.empty()) return found;
+  std::vector<std::string> known;
+  for (const io::ColumnSection& section : all)
+    if (std::ranges::find(known, stem(section)) == known.end()) known.push_back(stem(section));
+  throw scene::SceneError(
+      {{"command line", 0, topic, "",
+        fmt::format("no column begins with it or speaks of it; columns begin with {}", fmt::join(known, ", "))}});
+}
+
+}  // namespace
+
+int reference_columns(const std::string& topic, const runtime::World& world) {
   if (world.rank != 0) return done;
-  fmt::print(
-      "# Columns of history.csv\n\nMade from the program's declarations by `ci/reference`. `time_s` comes first. Words in "
-      "capitals stand "
-      "for names of the\nscene. A run has the columns of what its scene has; `summary.json` lists them with unit and meaning.\n");
-  for (const io::ColumnSection& section : run::all_columns()) {
+  if (topic.empty())
+    fmt::print(
+        "# Columns of history.csv\n\nMade from the program's declarations by `ci/reference`. `time_s` comes first. Words in "
+        "capitals stand "
+        "for names of the\nscene. A run has the columns of what its scene has; `summary.json` lists them with unit and "
+        "meaning.\n");
+  for (const io::ColumnSection& section : topic.empty() ? run::all_columns() : sections_of(topic)) {
     fmt::print("\n## {}* ({})\n\n| column | unit | meaning |\n|---|---|---|\n", section.prefix, section.when);
     for (const io::Column& c : section.columns) fmt::print("| `{}{}` | {} | {} |\n", section.prefix, c.name, c.unit, c.meaning);
   }

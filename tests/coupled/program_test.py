@@ -284,6 +284,21 @@ class Program(Folder):
         text = spindrift("reference", "--columns").stdout
         self.assertEqual(text, (ROOT / "docs/reference/columns.md").read_text(), "run ci/reference and commit docs/reference/columns.md")
 
+    def test_columns_of_a_topic_alone(self):
+        def columns(topic):
+            return re.findall(r"^\| `(\S+)` ", spindrift("reference", "--columns", topic).stdout, re.M)
+
+        sea = columns("sea")
+        self.assertGreater(len(sea), 5)
+        self.assertTrue(all(name.startswith("sea.") for name in sea), sea)
+        self.assertEqual(columns("body"), columns("BODY."))
+        self.assertEqual({name.rpartition(".")[0] for name in columns("rotor")}, {"rotor", "rotor.blade_1"})
+        self.assertEqual(columns("rotor.thrust_N"), ["rotor.thrust_N"])
+        self.assertLessEqual(set(columns("wavemaker")), set(columns("paddle")))  # tanks with a paddle
+        unknown = spindrift("reference", "--columns", "quantum")
+        self.assertEqual((unknown.returncode, unknown.stdout), (2, ""))
+        self.assertIn("columns begin with BODY, BODY.SOURCE, JOINT, ", unknown.stderr)
+
 
 @functools.cache
 def checked(scene):
