@@ -86,24 +86,20 @@ void fill_runs(const Team& team, std::vector<std::uint32_t>& first_replay, std::
     if (first_replay[r] + runs[r].replays <= complete) kept.push_back(std::move(runs[r])), kept_first.push_back(first_replay[r]);
   runs = std::move(kept), first_replay = std::move(kept_first);
 
-  std::vector<std::vector<std::vector<const Record*>>> of_run(runs.size());
-  for (auto& of_node : of_run) of_node.resize(nodes);
-  for (const auto& worker : team.workers)
-    for (const Record& record : worker->records.records()) {
-      if (record.task >= nodes) continue;
-      const auto after = std::ranges::upper_bound(first_replay, record.replay);
-      if (after == first_replay.begin()) continue;
-      const auto run = std::size_t(after - first_replay.begin()) - 1;
-      if (record.replay < first_replay[run] + runs[run].replays) of_run[run][record.task].push_back(&record);
-    }
+  std::vector<std::vector<const Record*>> of_node(nodes);
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (auto& records : of_node) records.clear();
+    for (const auto& worker : team.workers)
+      for (const Record& record : worker->records.records())
+        if (record.task < nodes && record.replay >= first_replay[r] && record.replay < first_replay[r] + runs[r].replays)
+          of_node[record.task].push_back(&record);
     runs[r].ns.resize(nodes), runs[r].iterations.resize(nodes);
     for (std::size_t n = 0; n < nodes; ++n) {
-      auto& records = of_run[r][n];
-      std::ranges::sort(records, {}, &Record::begin_ns);
-      for (const Record* record : records) runs[r].ns[n].push_back(record->end_ns - record->begin_ns);
+      std::ranges::sort(of_node[n], {}, &Record::begin_ns);
+      runs[r].ns[n].reserve(of_node[n].size());
+      for (const Record* record : of_node[n]) runs[r].ns[n].push_back(record->end_ns - record->begin_ns);
     }
-    count_iterations(team, of_run[r], runs[r]);
+    count_iterations(team, of_node, runs[r]);
   }
 }
 

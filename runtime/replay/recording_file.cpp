@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
@@ -87,36 +88,54 @@ Json node_line(const RankRecording& rank, std::uint32_t g, std::uint32_t n, cons
   return line;
 }
 
-Json run_line(const RankRecording& rank, std::size_t r) {
-  const RunRecord& run = rank.runs[r];
-  return {{"rank", rank.rank},
-          {"run", r},
-          {"window", run.window},
-          {"graph", run.graph},
-          {"replays", run.replays},
-          {"begin_ns", run.begin_ns},
-          {"wall_ns", run.wall_ns},
-          {"task_ns", run.task_ns},
-          {"idle_ns", run.idle_ns},
-          {"poll_ns", run.poll_ns},
-          {"overhead_ns", run.overhead_ns},
-          {"iterations", run.iterations},
-          {"ns", run.ns}};
+using Put = std::function<void(const std::string& text)>;
+
+/// ,"name":[[1,2],[],...]
+template <class T>
+void put_lists(const char* name, const std::vector<std::vector<T>>& lists, const Put& put) {
+  std::string text = std::string(",\"") + name + "\":[";
+  for (const std::vector<T>& list : lists) {
+    text += '[';
+    for (const T value : list) (text += std::to_string(value)) += ',';
+    if (!list.empty()) text.pop_back();
+    put(text + ']');
+    text = ",";
+  }
+  put(lists.empty() ? text + "]" : "]");
 }
 
-std::string lines_of(const RankRecording& rank) {
-  std::string text;
+void put_run(const RankRecording& rank, std::size_t r, const Put& put) {
+  const RunRecord& run = rank.runs[r];
+  const Json line{{"rank", rank.rank},
+                  {"run", r},
+                  {"window", run.window},
+                  {"graph", run.graph},
+                  {"replays", run.replays},
+                  {"begin_ns", run.begin_ns},
+                  {"wall_ns", run.wall_ns},
+                  {"task_ns", run.task_ns},
+                  {"idle_ns", run.idle_ns},
+                  {"poll_ns", run.poll_ns},
+                  {"overhead_ns", run.overhead_ns}};
+  std::string head = line.dump();
+  head.pop_back();
+  put(head);
+  put_lists("iterations", run.iterations, put), put_lists("ns", run.ns, put);
+  put("}\n");
+}
+
+/// The lines of a rank in small pieces: all together they may be larger than what they are of.
+void put_lines(const RankRecording& rank, const Put& put) {
   for (std::uint32_t g = 0; g < rank.graphs.size(); ++g) {
     const GraphRecord& graph = rank.graphs[g];
     Json data = Json::array();
     for (const DatumRecord& datum : graph.data) data.push_back({or_null(datum.place), datum.bytes});
-    text += Json{{"rank", rank.rank}, {"graph", g}, {"nodes", graph.nodes.size()}, {"data", std::move(data)}}.dump() + '\n';
+    put(Json{{"rank", rank.rank}, {"graph", g}, {"nodes", graph.nodes.size()}, {"data", std::move(data)}}.dump() + '\n');
     std::vector<std::vector<Edge>> before(graph.nodes.size());
     for (const Edge& edge : graph.edges) before[edge.to].push_back(edge);
-    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) text += node_line(rank, g, n, before[n]).dump() + '\n';
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) put(node_line(rank, g, n, before[n]).dump() + '\n');
   }
-  for (std::size_t r = 0; r < rank.runs.size(); ++r) text += run_line(rank, r).dump() + '\n';
-  return text;
+  for (std::size_t r = 0; r < rank.runs.size(); ++r) put_run(rank, r, put);
 }
 
 std::string header_of(const Recording& recording, int ranks) {
@@ -211,31 +230,44 @@ void read_line(const Json& line, Recording& to, std::size_t file_bytes) {
   }
 }
 
+/// To rank 0, in messages of a few megabytes; an empty one is the last.
+void send_lines(const RankRecording& rank, MPI_Comm comm) {
+  constexpr std::size_t enough = std::size_t(1) << 22;
+  std::string text;
+  const auto send = [&] {
+    const int bytes = int(text.size());
+    MPI_Send(&bytes, 1, MPI_INT, 0, 0, comm);
+    MPI_Send(text.data(), bytes, MPI_CHAR, 0, 1, comm);
+    text.clear();
+  };
+  put_lines(rank, [&](const std::string& more) {
+    text += more;
+    if (text.size() >= enough) send();
+  });
+  if (!text.empty()) send();
+  send();
+}
+
 }  // namespace
 
 void write_recording(const Recording& own, const std::string& path, MPI_Comm comm) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank), MPI_Comm_size(comm, &size);
-  constexpr std::size_t chunk = std::size_t(1) << 30;  // MPI counts are int
-  std::string text = lines_of(own.ranks.front());
   if (rank > 0) {
-    const std::uint64_t bytes = text.size();
-    MPI_Send(&bytes, 1, MPI_UINT64_T, 0, 0, comm);
-    for (std::size_t at = 0; at < bytes; at += chunk)
-      MPI_Send(text.data() + at, int(std::min(chunk, bytes - at)), MPI_CHAR, 0, 1, comm);
+    send_lines(own.ranks.front(), comm);
     return;
   }
   errno = 0;
   std::ofstream out(path);
-  out << header_of(own, size) << text;
-  for (int other = 1; other < size; ++other) {
-    std::uint64_t bytes = 0;
-    MPI_Recv(&bytes, 1, MPI_UINT64_T, other, 0, comm, MPI_STATUS_IGNORE);
-    text.resize(bytes);
-    for (std::size_t at = 0; at < bytes; at += chunk)
-      MPI_Recv(text.data() + at, int(std::min(chunk, bytes - at)), MPI_CHAR, other, 1, comm, MPI_STATUS_IGNORE);
-    out << text;
-  }
+  out << header_of(own, size);
+  put_lines(own.ranks.front(), [&](const std::string& text) { out << text; });
+  std::string text;
+  for (int other = 1; other < size; ++other)
+    for (int bytes = -1; bytes != 0; out << text) {
+      MPI_Recv(&bytes, 1, MPI_INT, other, 0, comm, MPI_STATUS_IGNORE);
+      text.resize(std::size_t(bytes));
+      MPI_Recv(text.data(), bytes, MPI_CHAR, other, 1, comm, MPI_STATUS_IGNORE);
+    }
   out.flush();
   if (!out) throw std::runtime_error("cannot write the recording to " + path + ": " + std::strerror(errno));
 }

@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "runtime/executor/worker.hpp"
@@ -20,6 +19,14 @@ Ledger* active = nullptr;
 
 void widen(std::vector<ThreadTimes>& threads, std::size_t count) {
   if (threads.size() < count) threads.resize(count);
+}
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T> more) {
+  if (to.empty())
+    to = std::move(more);
+  else
+    to.insert(to.end(), more.begin(), more.end());
 }
 
 /// Of all threads.
@@ -51,7 +58,7 @@ Ledger::Live* Ledger::live(const Team& team) {
 void Ledger::closed(const Team& team) {
   const Live* found = live(team);
   if (!found) return;
-  add(gone_, *found), add(recorded_, *found);
+  add(gone_, trace_of(team), found->wall_ns), add(recorded_, *found);
   live_.erase(live_.begin() + (found - live_.data()));
 }
 
@@ -109,9 +116,8 @@ void Ledger::move(std::string_view from, std::string_view label, std::int64_t ns
   move.from = from, move.cost.ns += ns, move.cost.count += std::uint64_t(count);
 }
 
-/// Nodes of the team's graph join those alike; its threads' times are brought to the wall time of its runs as seen from outside.
-void Ledger::add(Merged& to, const Live& live) {
-  RankTrace own = trace_of(*live.team, 0);
+/// Nodes of its graph join those alike; its threads' times are brought to the wall time of its runs as seen from outside.
+void Ledger::add(Merged& to, RankTrace own, std::int64_t wall_ns) {
   std::vector<std::uint32_t> as(own.nodes.size());
   std::map<Key, std::uint32_t> seen;
   for (std::uint32_t n = 0; n < own.nodes.size(); ++n) {
@@ -127,26 +133,28 @@ void Ledger::add(Merged& to, const Live& live) {
       to.trace.nodes[as[n]].cost.total_ns += node.cost.total_ns, to.trace.nodes[as[n]].cost.count += node.cost.count;
   }
   if (!own.records.empty()) {
-    std::set<std::tuple<std::uint32_t, std::uint32_t, std::uint8_t>> edges;
-    for (const Edge& e : to.trace.edges) edges.emplace(e.from, e.to, e.distance);
-    for (const Edge& e : own.edges)
-      if (edges.emplace(as[e.from], as[e.to], e.distance).second) to.trace.edges.push_back({as[e.from], as[e.to], e.distance});
+    const auto key = [](const Edge& e) { return std::tuple(e.from, e.to, e.distance); };
+    for (Edge& e : own.edges) e.from = as[e.from], e.to = as[e.to];
+    std::vector<Edge> known = to.trace.edges;
+    std::ranges::sort(known, {}, key);
+    std::erase_if(own.edges, [&](const Edge& e) { return std::ranges::binary_search(known, key(e), {}, key); });
+    append(to.trace.edges, std::move(own.edges));
     std::uint32_t replays = 0;
     for (Record& record : own.records) {
       if (record.task < as.size()) record.task = as[record.task];
       replays = std::max(replays, record.replay + 1);
       record.replay += to.replays;
-      to.trace.records.push_back(record);
     }
+    append(to.trace.records, std::move(own.records));
     to.replays += replays;
   }
   to.trace.complete_until = std::min(to.trace.complete_until, own.complete_until);
   widen(to.trace.threads, own.threads.size());
   for (std::size_t t = 0; t < to.trace.threads.size(); ++t) {
     ThreadTimes& times = to.trace.threads[t];
-    times.wall_ns += live.wall_ns;
+    times.wall_ns += wall_ns;
     if (t >= own.threads.size()) {
-      times.idle_ns += live.wall_ns;
+      times.idle_ns += wall_ns;
       continue;
     }
     times.task_ns += own.threads[t].task_ns, times.idle_ns += own.threads[t].idle_ns, times.poll_ns += own.threads[t].poll_ns;
@@ -156,11 +164,28 @@ void Ledger::add(Merged& to, const Live& live) {
 
 RankTrace Ledger::trace(int rank) const {
   Merged all = gone_;
-  std::int64_t known_ns = 0;
-  for (const Live& live : live_) add(all, live);
-  RankTrace& trace = all.trace;
+  for (const Live& live : live_) add(all, trace_of(*live.team), live.wall_ns);
+  return whole(std::move(all.trace), rank, true);
+}
+
+RankTrace Ledger::sums(int rank) const {
+  Merged all{.trace = by_module(gone_.trace), .nodes = {}, .replays = 0};
+  for (const Live& live : live_) add(all, by_module(*live.team), live.wall_ns);
+  return by_module(whole(std::move(all.trace), rank, false));
+}
+
+std::size_t Ledger::records() const {
+  std::size_t sum = gone_.trace.records.size() + records_.size();
+  for (const Live& live : live_)
+    for (const auto& worker : live.team->workers) sum += worker->records.records().size();
+  return sum;
+}
+
+void Ledger::close() { end_ns_ = Clock::now_ns(); }
+
+RankTrace Ledger::whole(RankTrace trace, int rank, bool with_records) const {
   trace.rank = rank;
-  known_ns = trace.threads[0].wall_ns;
+  std::int64_t known_ns = trace.threads[0].wall_ns;
   const auto serial = [&](std::int64_t ns, bool waits) {
     for (std::size_t t = 0; t < trace.threads.size(); ++t) {
       trace.threads[t].wall_ns += ns;
@@ -176,10 +201,11 @@ RankTrace Ledger::trace(int rank) const {
   for (const auto& [label, cost] : spans_) add_span(label, cost), serial(cost.ns, false);
   for (const auto& [label, cost] : waits_) serial(cost.ns, true);
   // What nobody named: between spans and runs of executors.
-  const std::int64_t rest = std::max<std::int64_t>(0, Clock::now_ns() - begin_ns_ - known_ns);
+  const std::int64_t rest = std::max<std::int64_t>(0, end_ns_.value_or(Clock::now_ns()) - begin_ns_ - known_ns);
   add_span("run/other", {rest, 1}), serial(rest, false);
   std::uint32_t replay = 1u << 31;  // a window of its own for each
   for (const SpanRecord& span : records_) {
+    if (!with_records) break;
     const auto node = node_of.find(span.label);
     trace.records.push_back({span.begin_ns, span.end_ns, node == node_of.end() ? no_task : node->second, replay++, 0, 0, 0,
                              node == node_of.end() ? Activity::idle : Activity::task});

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -36,6 +37,12 @@ class Ledger {
   /// Everything so far. The threads' wall times are those of the ledger: wall = task + idle + poll + overhead for each, and the
   /// costs of the nodes add up to the tasks' times.
   RankTrace trace(int rank) const;
+  /// The same by_module and without records, in memory that does not grow with the graphs.
+  RankTrace sums(int rank) const;
+  /// Records that a trace has.
+  std::size_t records() const;
+  /// The run ends here: what is done later is not of its time.
+  void close();
 
   /// What a window leaves: records of tasks and spans (a trace), or besides these its runs, for a recording.
   enum class Keep { nothing, records, runs };
@@ -76,8 +83,11 @@ class Ledger {
     std::map<Key, std::uint32_t> nodes;
     std::uint32_t replays = 0;
   };
-  static void add(Merged& to, const Live& live);
+  /// `own`: of an executor whose runs took `wall_ns`.
+  static void add(Merged& to, RankTrace own, std::int64_t wall_ns);
   static void add(RankRecording& to, const Live& live);
+  /// With what was done outside of executors.
+  RankTrace whole(RankTrace of_executors, int rank, bool with_records) const;
   Live* live(const Team& team);
   struct Cost {
     std::int64_t ns = 0;
@@ -89,6 +99,7 @@ class Ledger {
   };
 
   const std::int64_t begin_ns_;
+  std::optional<std::int64_t> end_ns_;
   std::size_t capacity_;
   std::vector<Live> live_;
   Merged gone_;

@@ -31,8 +31,13 @@ class RankWalk {
 
   void run(std::int64_t until) {
     std::vector<const Record*> records;
+    std::size_t joins = 0;
     for (const Record& record : trace_.records)
-      if (record.task < trace_.nodes.size() && record.end_ns <= until) records.push_back(&record);
+      if (record.task < trace_.nodes.size() && record.end_ns <= until)
+        records.push_back(&record), joins += before_of_node_[record.task].size() + 1;
+    // A vector that grows by itself takes three times its size while it does.
+    out_.all.reserve(out_.all.size() + records.size() + records.size() / 16);
+    out_.before.reserve(out_.before.size() + joins + joins / 16);
     std::stable_sort(records.begin(), records.end(), [](const Record* a, const Record* b) {
       return std::pair(a->begin_ns, a->end_ns) < std::pair(b->begin_ns, b->end_ns);
     });
@@ -48,6 +53,7 @@ class RankWalk {
   struct NodeState {
     std::uint32_t last = no_occurrence;        ///< last execution that ended; of a loop: its end, if that is up to date
     std::uint32_t loop_begin = no_occurrence;  ///< of a loop: its beginning
+    std::uint32_t entries = 0;                 ///< of the loop round it that it has run in; of a loop: that have a beginning
     bool changed = false;                      ///< of a loop: something in it ended since `last`
   };
 
@@ -62,7 +68,7 @@ class RankWalk {
     std::vector<std::uint32_t> before;
     for (const std::uint32_t node : before_of_node_[record.task]) add(before, latest(node));
     const std::uint32_t loop = trace_.nodes[record.task].loop;
-    if (loop != no_node && record.iteration == 0) add(before, beginning(loop));
+    if (loop != no_node && record.iteration == 0) add(before, beginning_of_entry(loop, ++state_[record.task].entries));
     if (record.iteration > 0) add(before, state_[record.task].last);
     return append({index_, record.task, &record, record.begin_ns, record.end_ns, record.begin_ns}, before);
   }
@@ -95,6 +101,15 @@ class RankWalk {
     for (const std::uint32_t member : members_[node]) add(before, latest(member));
     state.changed = false;
     return state.last = append_joint(node, before);
+  }
+
+  /// One for all nodes of the loop: what it waits for had ended before the first of them began. Sought again for each, in a loop
+  /// that waits for its own run before, it would be all nodes that have ended since, for all nodes.
+  std::uint32_t beginning_of_entry(std::uint32_t loop, std::uint32_t entry) {
+    if (entry <= state_[loop].entries) return state_[loop].loop_begin;
+    const std::uint32_t begin = beginning(loop);
+    state_[loop].entries = entry;
+    return begin;
   }
 
   /// All that a loop waits for, with what the loops round it wait for.

@@ -105,6 +105,33 @@ void answer_clock(MPI_Comm comm) {
   }
 }
 
+class ModuleSums {
+ public:
+  void add(std::string_view label, NodeKind kind, TaskCost cost) {
+    TaskCost& sum = sums_[{module_of(label), kind}];
+    sum.total_ns += cost.total_ns, sum.count += cost.count;
+  }
+  std::vector<TraceNode> nodes() const {
+    std::vector<TraceNode> nodes;
+    for (const auto& [of, cost] : sums_) nodes.push_back({.label = std::string(of.first), .kind = of.second, .cost = cost});
+    return nodes;
+  }
+
+ private:
+  std::map<std::pair<std::string_view, NodeKind>, TaskCost> sums_;
+};
+
+TaskCost cost_of(const Slot& slot) { return {slot.cost_ns, slot.step}; }
+
+void add_threads(RankTrace& trace, const Team& team) {
+  for (const auto& worker : team.workers) {
+    trace.threads.push_back(worker->times);
+    const auto records = worker->records.records();
+    if (worker->records.lost() > 0)
+      trace.complete_until = std::min(trace.complete_until, records.empty() ? 0 : records.back().end_ns);
+  }
+}
+
 void shift(RankTrace& trace, std::int64_t by) {
   for (Record& record : trace.records) record.begin_ns += by, record.end_ns += by;
   if (trace.complete_until != RankTrace::always) trace.complete_until += by;
@@ -123,8 +150,7 @@ RankTrace trace_of(const Team& team, int rank) {
   const auto& recorded = graph.recorded();
   for (std::uint32_t n = 0; n < graph.nodes().size(); ++n) {
     const Node& node = graph.nodes()[n];
-    const Slot& slot = team.program.slots[n];
-    TraceNode of{node.label, node.kind, node.loop, -1, -1, TaskCost{slot.cost_ns, slot.step}};
+    TraceNode of{node.label, node.kind, node.loop, -1, -1, cost_of(team.program.slots[n])};
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive) {
       const Message& message = recorded.messages[recorded.payload[n]];
       of.peer = message.peer, of.tag = message.tag;
@@ -134,26 +160,31 @@ RankTrace trace_of(const Team& team, int rank) {
   for (const auto& worker : team.workers) {
     const auto records = worker->records.records();
     trace.records.insert(trace.records.end(), records.begin(), records.end());
-    trace.threads.push_back(worker->times);
-    if (worker->records.lost() > 0)
-      trace.complete_until = std::min(trace.complete_until, records.empty() ? 0 : records.back().end_ns);
   }
+  add_threads(trace, team);
   return trace;
+}
+
+RankTrace by_module(const Team& team, int rank) {
+  RankTrace out{.rank = rank};
+  const auto nodes = team.graph.nodes();
+  ModuleSums sums;
+  for (std::size_t n = 0; n < nodes.size(); ++n) sums.add(nodes[n].label, nodes[n].kind, cost_of(team.program.slots[n]));
+  out.nodes = sums.nodes();
+  add_threads(out, team);
+  return out;
 }
 
 RankTrace by_module(const RankTrace& trace) {
   RankTrace out{.rank = trace.rank, .threads = trace.threads, .complete_until = trace.complete_until};
-  std::map<std::pair<std::string_view, NodeKind>, TaskCost> sums;
-  for (const TraceNode& node : trace.nodes) {
-    TaskCost& sum = sums[{module_of(node.label), node.kind}];
-    sum.total_ns += node.cost.total_ns, sum.count += node.cost.count;
-  }
-  for (const auto& [of, cost] : sums) out.nodes.push_back({.label = std::string(of.first), .kind = of.second, .cost = cost});
+  ModuleSums sums;
+  for (const TraceNode& node : trace.nodes) sums.add(node.label, node.kind, node.cost);
+  out.nodes = sums.nodes();
   return out;
 }
 
-std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm) {
-  const RankTrace own = mine.records.empty() ? by_module(mine) : mine;
+std::vector<RankTrace> gather_traces(RankTrace mine, MPI_Comm comm) {
+  RankTrace own = mine.records.empty() ? by_module(mine) : std::move(mine);
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
@@ -167,7 +198,7 @@ std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm) {
       MPI_Send(parcel.bytes().data() + at, int(std::min(chunk, bytes - at)), MPI_BYTE, 0, bytes_tag, comm);
     return all;
   }
-  all.push_back(own);
+  all.push_back(std::move(own));
   for (int other = 1; other < size; ++other) {
     const std::int64_t difference = clock_difference(other, comm);
     std::uint64_t bytes = 0;

@@ -20,10 +20,11 @@ RankTrace trace_of(const Team& team, int rank = 0);
 
 /// The same sums of a trace without records: a node per module and kind, no edges.
 RankTrace by_module(const RankTrace& trace);
+RankTrace by_module(const Team& team, int rank = 0);
 
 /// All ranks' traces on rank 0 of `comm` (elsewhere nothing), times on the clock of its rank 0; those without records by_module.
 /// Collective.
 /// The clocks are compared by the fastest of 20 round trips: good to half of it, about 1 us within a computer.
-std::vector<RankTrace> gather_traces(const RankTrace& mine, MPI_Comm comm);
+std::vector<RankTrace> gather_traces(RankTrace mine, MPI_Comm comm);
 
 }  // namespace spindrift::runtime

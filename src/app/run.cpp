@@ -117,22 +117,23 @@ double last_time_s(const std::filesystem::path& history) {
 }
 
 /// The summary of a run that began, however it ended: what is thrown becomes an exit code, and a sentence in summary.json, before
-/// it goes on (a failure of the system, which the other ranks may not know of) or ends the run (what all ranks know).
-io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, io::Summary summary,
+/// it goes on (a failure of the system, which the other ranks may not know of) or ends the run (what all ranks know). `known`:
+/// what stands in it then, of which `run` may learn more.
+io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& world, io::Summary& known,
                        const std::function<io::Summary()>& run) {
   const io::SummaryOfOthers before(directory.summary());  // of all ranks but the first
   const auto end = [&](int code, const std::string& why) {
-    summary.exit_code = code, summary.exit_reason = why;
-    summary.ranks = world.size;
-    if (code == numerical_failure) summary.numerical_trouble.push_back(why);
+    known.exit_code = code, known.exit_reason = why;
+    known.ranks = world.size;
+    if (code == numerical_failure) known.numerical_trouble.push_back(why);
   };
   // A new run says what it was refused for; one that goes on keeps the summary that it has.
   const auto write = [&](int code, const std::string& why) {
     end(code, world.rank == 0 ? why : fmt::format("rank {}: {}", world.rank, why));
     if (world.rank == 0)
-      write_summary(directory.summary(), summary);
+      write_summary(directory.summary(), known);
     else
-      before.write_instead(summary, world.rank);
+      before.write_instead(known, world.rank);
   };
   const auto refused = [&](const std::string& why) {
     if (!directory.resumes()) write(bad_input, why);
@@ -149,12 +150,12 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
     end(stopped,
         fmt::format("{}, before the first window; with --restart the run {}", why.what(),
                     directory.resumes() ? "goes on from its newest checkpoint" : "begins anew, air that settles where it was"));
-    if (directory.resumes() && world.rank == 0) summary.start_time_s = summary.end_time_s = last_time_s(directory.history());
+    if (directory.resumes() && world.rank == 0) known.start_time_s = known.end_time_s = last_time_s(directory.history());
   } catch (const NumericalFailure& failure) { end(numerical_failure, failure.what()); } catch (const std::exception& failure) {
     write(machine_failure, failure.what());
     throw;
   }
-  return summary;
+  return known;
 }
 
 /// Processor time of all ranks since each one's clock was at `since`, and memory. Collective.
@@ -311,19 +312,25 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     settings.began = says_begun;  // until then the summary of the run before stands
   else if (world.rank == 0)
     says_begun();
+  const auto complete = [&](io::Summary& summary) {
+    summary.title = title;
+    summary.scene = arguments.scene, summary.overrides = arguments.overrides;
+    if (system) summary.modes = lines_of(system->modes);
+    take_stock(summary, since, world);
+    if (world.rank != 0) return;
+    summary.warnings = io::warnings_logged();
+    if (!summary.statistics) summary.statistics = statistics(directory, *scenario, summary.end_time_s);
+    write_summary(directory.summary(), summary);
+  };
+  settings.ended = [&](const io::Summary& summary) { complete(begun = summary); };
   io::Summary summary = summary_of(directory, world, begun, [&] {
     return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
                   : run::run_flow(*scenario, directory, parts, settings, stop);
   });
-  summary.title = title;
-  summary.scene = arguments.scene, summary.overrides = arguments.overrides;
-  if (system) summary.modes = lines_of(system->modes);
-  take_stock(summary, since, world);
-  if (world.rank == 0) {
+  if (world.rank == 0)
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
-    summary.warnings = io::warnings_logged();
-    if (!summary.statistics) summary.statistics = statistics(directory, *scenario, summary.end_time_s);
-    write_summary(directory.summary(), summary);
+  complete(summary);
+  if (world.rank == 0) {
     using Format = io::OpenFastFormat;
     if (const std::string& format = scenario->output.openfast; format != "none")
       write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);

@@ -10,7 +10,6 @@
 #include "runtime/executor/executor.hpp"
 #include "runtime/replay/recording_file.hpp"
 #include "runtime/trace/chrome.hpp"
-#include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/trace_of.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/collective.hpp"
@@ -163,25 +162,65 @@ void Driver::end_early(const std::string& why) {
 }
 
 /// Where the core-seconds of all ranks went, from the ledger: into the summary by part, into the log as a table, and to
-/// trace.json.gz where asked for. Collective.
+/// trace.json.gz where asked for. What needs the records comes last: it takes the most memory. Collective.
 void Driver::describe_times() {
   const runtime::World& world = parts_.world();
-  runtime::RankTrace own = ledger_.trace(world.rank);
-  for (runtime::TraceNode& node : own.nodes)  // a side's tasks count its own ranks
-    if (node.peer >= 0) node.peer += world.rank - parts_.mine().rank;
-  summary_.wall_seconds = 1e-9 * double(own.threads[0].wall_ns);
-  summary_.threads = int(own.threads.size());
-  traces_ = gather_traces(own, world.comm);
+  ledger_.close();
+  const runtime::RankTrace sums = ledger_.sums(world.rank);
+  summary_.wall_seconds = 1e-9 * double(sums.threads[0].wall_ns);
+  summary_.threads = int(sums.threads.size());
+  traces_ = gather_traces(sums, world.comm);
+  runtime::Efficiency of_sums;
+  if (world.rank == 0) {
+    of_sums = efficiency_of(traces_);
+    add_factors(
+        {{"parallel efficiency", of_sums.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
+         {"load balance", of_sums.load_balance, "mean over largest useful time of a thread"},
+         {"communication efficiency", of_sums.communication, "largest useful time of a thread over elapsed time"}});
+    add_parts(of_sums);
+  }
   if (!settings_.record_graph.empty()) write_recording();
+  const auto records = std::int64_t(runtime::summed(world.comm, {double(ledger_.records())})[0]);
+  if (records > 0) {
+    if (settings_.ended) settings_.ended(summary_);
+    read_records(records);
+  } else if (world.rank == 0) {
+    spdlog::info("{}", efficiency_table(of_sums));
+  }
+}
+
+void Driver::read_records(std::int64_t records) {
+  const runtime::World& world = parts_.world();
+  const bool makes_table = records <= settings_.most_in_table;
+  if (makes_table || settings_.trace || settings_.keep_runs) {
+    runtime::RankTrace own = ledger_.trace(world.rank);
+    for (runtime::TraceNode& node : own.nodes)  // a side's tasks count its own ranks
+      if (node.peer >= 0) node.peer += world.rank - parts_.mine().rank;
+    traces_ = gather_traces(std::move(own), world.comm);
+  }
   if (world.rank != 0) return;
-  const runtime::Efficiency e = efficiency_of(traces_);
-  for (const auto& [name, value, meaning] : std::initializer_list<std::tuple<const char*, double, const char*>>{
-           {"parallel efficiency", e.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
-           {"load balance", e.load_balance, "mean over largest useful time of a thread"},
-           {"communication efficiency", e.communication, "largest useful time of a thread over elapsed time"},
-           {"serialisation efficiency", e.serialisation, "what dependencies leave on an ideal network"},
-           {"transfer efficiency", e.transfer, "what moving data leaves"}})
-    if (std::isfinite(value)) summary_.efficiency.push_back({name, value, meaning});
+  if (makes_table) {
+    const runtime::Efficiency e = efficiency_of(traces_);
+    add_factors({{"serialisation efficiency", e.serialisation, "what dependencies leave on an ideal network"},
+                 {"transfer efficiency", e.transfer, "what moving data leaves"}});
+    spdlog::info("{}", efficiency_table(e));
+  } else {
+    spdlog::warn("no table of efficiency: it is made of at most {} records, of which there are {}; --windows keeps fewer{}",
+                 settings_.most_in_table, records,
+                 settings_.record_graph.empty()
+                     ? ""
+                     : fmt::format(", and spindrift replay {} has a table of the recording", settings_.record_graph));
+  }
+  if (settings_.trace) write_chrome_trace(traces_, directory_.trace().string());
+}
+
+/// Those that are known.
+void Driver::add_factors(const std::vector<io::Efficiency>& factors) {
+  for (const io::Efficiency& factor : factors)
+    if (std::isfinite(factor.value)) summary_.efficiency.push_back(factor);
+}
+
+void Driver::add_parts(const runtime::Efficiency& e) {
   double known_s = 0.0;
   const auto add = [&](const std::string& name, double core_s, std::int64_t calls) {
     summary_.parts.push_back({name, core_s / e.threads, core_s, calls});
@@ -190,8 +229,6 @@ void Driver::describe_times() {
   for (const runtime::ModuleTimes& module : e.modules) add(module.module, module.busy_s, module.calls);
   add("waiting", e.idle_s, 0), add("messages", e.poll_s, 0);
   add("runtime", std::max(0.0, e.wall_s - known_s), 0);  // what the threads had besides: task graph, priorities, teams
-  spdlog::info("{}", efficiency_table(e));
-  if (settings_.trace) write_chrome_trace(traces_, directory_.trace().string());
 }
 
 void Driver::write_recording() const {

@@ -12,6 +12,7 @@
 
 #include "runtime/mpi/parts.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/ledger.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
@@ -33,9 +34,13 @@ struct RunSettings {
   std::string record_graph;     ///< file of the recording; empty: none
   bool keep_runs = false;       ///< in the ledger, without a file
   std::function<void()> began;  ///< called once the first state is there and rows follow
+  /// Called with all but what the records say, before they are read. Only of runs that keep some. Collective.
+  std::function<void(const io::Summary&)> ended;
   /// Windows that trace and recording take down; without: all into the trace, usual_windows into the recording.
   std::optional<std::pair<std::int64_t, std::int64_t>> windows;
   static constexpr std::pair<std::int64_t, std::int64_t> usual_windows{3, 12};  // costs and priorities have settled
+  /// The table of efficiency is made of so many records at most, on all ranks: it takes memory for each.
+  std::int64_t most_in_table = 4'000'000;
   /// Of the trace, per thread.
   std::size_t records() const { return trace || keep_runs || !record_graph.empty() ? std::size_t(1) << 20 : 0; }
   /// What the window of this number (the first after t = 0 is 1) leaves.
@@ -69,6 +74,10 @@ class Driver {
   void end_early(const std::string& why);
   void summarise(Simulation& simulation, std::int64_t first, std::int64_t window);
   void describe_times();
+  void add_parts(const runtime::Efficiency& e);
+  void add_factors(const std::vector<io::Efficiency>& factors);
+  /// The records of all ranks on rank 0, and what they say.
+  void read_records(std::int64_t records);
   void write_recording() const;
 
   const io::RunDirectory& directory_;

@@ -378,7 +378,7 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
 
 /// Where the core-seconds of each side's ranks went, into the summary and as lines under the table. Collective; split runs.
 void SystemSimulation::describe_sides(io::Summary& summary, const runtime::Ledger& ledger) {
-  const runtime::RankTrace trace = ledger.trace(parts_.world().rank);
+  const runtime::RankTrace trace = ledger.sums(parts_.world().rank);
   std::vector<double> mine(8, 0.0);  // by part: ranks, core-seconds in all, busy, waiting for the other side
   double* at = mine.data() + 4 * parts_.part();
   at[0] = 1.0, at[3] = 1e-9 * double(parts_.waited_ns()) * double(trace.threads.size());

@@ -112,6 +112,29 @@ TEST_CASE("an interrupted sea of particles goes on bit for bit", "[coupled][sea]
   CHECK(test::text_of(whole.path() / "history.csv") == test::text_of(parts.path() / "history.csv"));
 }
 
+TEST_CASE("what a run came to is told before its records are read, and too many of these are left alone", "[coupled][fast]") {
+  const test::Folder folder("records"), recorded("recorded");
+  std::optional<io::Summary> told;
+  run::RunSettings settings{.trace = true, .quiet = true};
+  settings.ended = [&](const io::Summary& summary) {
+    told = summary;
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "trace.json.gz"));
+  };
+  const io::Summary traced = test::run_scene(test::input(box), small_box, folder.path(), settings);
+  CHECK(std::filesystem::exists(folder.path() / "trace.json.gz"));
+  REQUIRE(told);
+  CHECK(told->counts == traced.counts);
+  CHECK(told->statistics->rows == traced.statistics->rows);
+  CHECK(told->parts.size() == traced.parts.size());
+  CHECK(traced.efficiency.size() == 5);
+  CHECK(told->efficiency.size() == 3);
+
+  settings.trace = false, settings.most_in_table = 10, settings.windows = {1, 100};
+  settings.record_graph = (folder.path() / "graph.jsonl").string();
+  settings.ended = [&](const io::Summary&) { CHECK(std::filesystem::file_size(settings.record_graph) > 1000); };
+  CHECK(test::run_scene(test::input(box), small_box, recorded.path(), settings).efficiency.size() == 3);
+}
+
 TEST_CASE("sensors of a scene: patches share out a body's load, a wall's pressure is that of its depth, run-up is over the body",
           "[coupled][sea][fast]") {
   const test::Folder folder("sensors");

@@ -61,6 +61,19 @@ class Program(Folder):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return recording
 
+    def test_a_run_whose_records_cannot_be_read_keeps_what_it_came_to(self):
+        process = subprocess.Popen([PROGRAM, "run", CASE1, "--out", self.out, "--trace", "--quiet", "--no-report"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        while not (self.out / "history.csv").exists() and process.poll() is None:
+            time.sleep(0.001)
+        (self.out / "trace.json.gz").mkdir()
+        said = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, 4, said)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["exit_code"], 4)
+        self.assertGreater(summary["counts"]["windows"], 0)
+        self.assertGreater(len(summary["parts"]), 2)
+        self.assertEqual(summary["rows"], len((self.out / "history.csv").read_text().splitlines()) - 1)
+
     def test_a_recorded_window_is_replayed(self):
         recording = self.recorded()
         header, *lines = map(json.loads, recording.read_text().splitlines())

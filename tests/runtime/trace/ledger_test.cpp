@@ -52,6 +52,34 @@ TEST_CASE("tasks of executors that are gone and of live ones are one sum", "[tra
   CHECK(std::ranges::count(trace.nodes, "sea/force/0", &TraceNode::label) == 1);
 }
 
+TEST_CASE("sums are those of the trace, without its records, and end where the run does", "[trace][fast]") {
+  Ledger ledger(100);
+  busy_executor(1000).run(3);
+  Executor live = busy_executor(1000);
+  live.run(2);
+  {
+    const Span span("output/history");
+    work_for(ms);
+  }
+  ledger.move("sea", "bodies/substeps", ms, 7);
+  ledger.close();
+  work_for(5 * ms);
+  const RankTrace trace = ledger.trace(0), sums = ledger.sums(0);
+  CHECK(ledger.records() == trace.records.size());
+  CHECK(sums.records.empty());
+  CHECK(sums.edges.empty());
+  CHECK(cost_of(sums, "sea").count == 5);
+  const RankTrace same = by_module(trace);
+  REQUIRE(sums.nodes.size() == same.nodes.size());
+  for (std::size_t n = 0; n < sums.nodes.size(); ++n) {
+    CHECK(sums.nodes[n].label == same.nodes[n].label);
+    CHECK(sums.nodes[n].cost.total_ns == same.nodes[n].cost.total_ns);
+    CHECK(sums.nodes[n].cost.count == same.nodes[n].cost.count);
+  }
+  REQUIRE(sums.threads.size() == trace.threads.size());
+  for (std::size_t t = 0; t < sums.threads.size(); ++t) CHECK(sums.threads[t].wall_ns == trace.threads[t].wall_ns);
+}
+
 TEST_CASE("a run on one thread is not charged for the others of OpenMP", "[trace][fast]") {
   const Ledger ledger(0, 1);
   {

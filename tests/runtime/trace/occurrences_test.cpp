@@ -67,6 +67,24 @@ TEST_CASE("the first iteration waits for what its loop waits for, and what follo
   CHECK(waited_for(all, after, 7) == std::vector<double>{5, 5});  // the last x and the last y
 }
 
+TEST_CASE("a loop that waits for its run before has one beginning a run, which is the end of that one", "[trace][fast]") {
+  SyntheticRank rank(0);
+  constexpr unsigned members = 50, replays = 4;
+  const auto loop = rank.node("m/loop", NodeKind::loop);
+  for (unsigned m = 0; m < members; ++m) rank.node("m/x", NodeKind::task, loop);
+  rank.edge(loop, loop, 1);
+  for (unsigned replay = 0; replay < replays; ++replay)
+    for (unsigned m = 0; m < members; ++m)
+      rank.ran(loop + 1 + m, 100 * replay + m, 100 * replay + m + 1, 0, replay),
+          rank.ran(loop + 1 + m, 100 * replay + 50 + 0.5 * m, 100 * replay + 50 + 0.5 * m + 0.4, 0, replay, 1);
+  const std::vector traces{rank.trace(100 * replays)};
+  const Occurrences all = occurrences_of(traces);
+  const auto of_run_before = waited_for(all, loop + members, 100 + members - 1);
+  CHECK(of_run_before.size() == members);
+  CHECK(of_run_before.back() < 100);
+  CHECK(all.before.size() < 4 * members * replays);
+}
+
 TEST_CASE("a message is under way from the moment both ends are posted", "[trace][fast]") {
   const auto traces = one_message();
   const Occurrences all = occurrences_of(traces);
