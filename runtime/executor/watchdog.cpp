@@ -178,7 +178,8 @@ void Watchdog::ask_others(double quiet_s) {
 /// A thread inside MPI may never come back from a call that a silent rank has part in: in order first, then by force.
 void Watchdog::end_without(const std::string& silent, double quiet_s) {
   const std::string what = report(quiet_s, silent);
-  Heartbeat::current()->end_within(std::min(limit_s_, most_patience_s));
+  Heartbeat::current()->end_within(std::min(limit_s_, most_patience_s),
+                                   what.substr(0, what.find_first_of(":\n", what.find(silent) + silent.size())));
   for (Team* team : at_work_) team->fail({team->graph.recorded().comm.rank(), true, "", what});
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "runtime/mpi/stop_request.hpp"
 
@@ -69,14 +70,16 @@ void Heartbeat::live() {
     if (leaving_ || !end_ || std::chrono::steady_clock::now() < *end_) continue;
     std::fputs("watchdog: this process waits in MPI for a rank that does not answer and is ended\n", stderr);
     std::fflush(stderr);
+    if (last_words_) last_words_(why_);
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::_Exit(exit_code);
   }
 }
 
-void Heartbeat::end_within(double seconds) {
+void Heartbeat::end_within(double seconds, std::string why) {
   const std::lock_guard guard(lock_);
   if (end_) return;
+  why_ = std::move(why);
   end_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(std::int64_t(1e3 * seconds));
 }
 
@@ -134,6 +137,18 @@ std::string Heartbeat::silent() {
   if (text.empty()) return text;
   return (text.find(',') == std::string::npos ? "rank " + text + " does not answer" : "ranks " + text + " do not answer") +
          ": stopped, or not to be reached";
+}
+
+Heartbeat::LastWords::LastWords(std::function<void(const std::string& why)> words) {
+  if (!of_process) return;
+  const std::lock_guard guard(of_process->lock_);
+  of_process->last_words_ = std::move(words);
+}
+
+Heartbeat::LastWords::~LastWords() {
+  if (!of_process) return;
+  const std::lock_guard guard(of_process->lock_);
+  of_process->last_words_ = nullptr;
 }
 
 }  // namespace spindrift::runtime

@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -35,9 +36,19 @@ class Heartbeat {
   void ask(double patience_s);
   /// "rank 3 does not answer", empty where all have answered as far as this rank can tell.
   std::string silent();
-  /// All ranks end with `exit_code` in so many seconds, unless this process has left MPI before. The first call counts.
-  void end_within(double seconds);
+  /// All ranks end with `exit_code` in so many seconds, unless this process has left MPI before. The first call counts. `why`:
+  /// for LastWords.
+  void end_within(double seconds, std::string why);
   static constexpr int exit_code = 4;  ///< a system failure (docs: exit codes)
+
+  /// What the thread does before it ends this process; nothing where there is one rank. One at a time.
+  class LastWords {
+   public:
+    explicit LastWords(std::function<void(const std::string& why)> words);
+    ~LastWords();
+    LastWords(const LastWords&) = delete;
+    LastWords& operator=(const LastWords&) = delete;
+  };
 
  private:
   using Time = std::chrono::steady_clock::time_point;
@@ -52,6 +63,8 @@ class Heartbeat {
   std::condition_variable changed_;
   bool leaving_ = false;
   std::optional<Time> end_;
+  std::string why_;
+  std::function<void(const std::string& why)> last_words_;
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   double patience_s_ = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "kernels/base/failure.hpp"
 #include "runtime/executor/watchdog.hpp"
 #include "runtime/mpi/affinity.hpp"
+#include "runtime/mpi/heartbeat.hpp"
 #include "runtime/mpi/parts.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/app/forecast.hpp"
@@ -156,6 +158,23 @@ io::Summary summary_of(const io::RunDirectory& directory, const runtime::World& 
     throw;
   }
   return known;
+}
+
+/// What the watchdog says, which ends a run that cannot end by itself, in summary.json. By whichever rank comes first, beside a
+/// thread that waits in MPI.
+std::function<void(const std::string&)> summary_by_force(const io::RunDirectory& directory, const runtime::World& world,
+                                                         io::Summary summary) {
+  summary.exit_code = machine_failure;
+  return [summary = std::move(summary), found = io::SummaryOfOthers(directory.summary()), history = directory.history(),
+          rank = world.rank, since = std::chrono::steady_clock::now()](const std::string& why) {
+    try {
+      io::Summary ended = summary;
+      ended.exit_reason = "ended by the watchdog: " + why;
+      ended.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+      ended.end_time_s = last_time_s(history);
+      found.write_instead(ended, rank);
+    } catch (const std::exception&) {}  // the process ends all the same
+  };
 }
 
 /// Processor time of all ranks since each one's clock was at `since`, and memory. Collective.
@@ -312,6 +331,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     settings.began = says_begun;  // until then the summary of the run before stands
   else if (world.rank == 0)
     says_begun();
+  const runtime::Heartbeat::LastWords last_words(summary_by_force(directory, world, begun));
   const auto complete = [&](io::Summary& summary) {
     summary.title = title;
     summary.scene = arguments.scene, summary.overrides = arguments.overrides;
