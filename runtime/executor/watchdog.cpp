@@ -178,8 +178,7 @@ void Watchdog::ask_others(double quiet_s) {
 /// A thread inside MPI may never come back from a call that a silent rank has part in: in order first, then by force.
 void Watchdog::end_without(const std::string& silent, double quiet_s) {
   const std::string what = report(quiet_s, silent);
-  Heartbeat::current()->end_within(std::min(limit_s_, most_patience_s),
-                                   what.substr(0, what.find_first_of(":\n", what.find(silent) + silent.size())));
+  Heartbeat::current()->end_within(std::min(limit_s_, most_patience_s), sentence(quiet_s, silent));
   for (Team* team : at_work_) team->fail({team->graph.recorded().comm.rank(), true, "", what});
 }
 
@@ -192,11 +191,15 @@ void Watchdog::look_at_graphs(double quiet_s) {
 }
 
 /// What is said, and written.
-std::string Watchdog::report(double quiet_s, const std::string& silent) const {
+std::string Watchdog::sentence(double quiet_s, const std::string& silent) const {
   const Heartbeat* const heartbeat = Heartbeat::current();
   const int rank = heartbeat ? heartbeat->rank() : at_work_.empty() ? 0 : at_work_.back()->graph.recorded().comm.rank();
-  std::string what = "nothing completed for " + std::to_string(int(quiet_s)) + " s on rank " + std::to_string(rank) +
-                     (silent.empty() ? "" : "; " + silent) + (at_work_.empty() ? ", where no graph runs\n" : ":\n");
+  return "nothing completed for " + std::to_string(int(quiet_s)) + " s on rank " + std::to_string(rank) +
+         (silent.empty() ? "" : "; " + silent) + (at_work_.empty() ? ", where no graph runs" : "");
+}
+
+std::string Watchdog::report(double quiet_s, const std::string& silent) const {
+  std::string what = sentence(quiet_s, silent) + (at_work_.empty() ? "\n" : ":\n");
   for (const Team* team : at_work_) what += dump(*team);
   std::fputs(("watchdog: " + what).c_str(), file_);
   std::fflush(file_);

@@ -41,6 +41,7 @@ class Watchdog {
   void look_at_graphs(double quiet_s);
   void end_without(const std::string& silent, double quiet_s);
   std::uint64_t progress() const;
+  std::string sentence(double quiet_s, const std::string& silent) const;
   std::string report(double quiet_s, const std::string& silent) const;
 
   const Of of_;

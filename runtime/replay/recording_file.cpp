@@ -93,15 +93,9 @@ using Put = std::function<void(const std::string& text)>;
 /// ,"name":[[1,2],[],...]
 template <class T>
 void put_lists(const char* name, const std::vector<std::vector<T>>& lists, const Put& put) {
-  std::string text = std::string(",\"") + name + "\":[";
-  for (const std::vector<T>& list : lists) {
-    text += '[';
-    for (const T value : list) (text += std::to_string(value)) += ',';
-    if (!list.empty()) text.pop_back();
-    put(text + ']');
-    text = ",";
-  }
-  put(lists.empty() ? text + "]" : "]");
+  put(std::string(",\"") + name + "\":[");
+  for (std::size_t n = 0; n < lists.size(); ++n) put((n > 0 ? "," : "") + Json(lists[n]).dump());
+  put("]");
 }
 
 void put_run(const RankRecording& rank, std::size_t r, const Put& put) {

@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "runtime/executor/worker.hpp"
@@ -204,8 +205,7 @@ RankTrace Ledger::whole(RankTrace trace, int rank, bool with_records) const {
   const std::int64_t rest = std::max<std::int64_t>(0, end_ns_.value_or(Clock::now_ns()) - begin_ns_ - known_ns);
   add_span("run/other", {rest, 1}), serial(rest, false);
   std::uint32_t replay = 1u << 31;  // a window of its own for each
-  for (const SpanRecord& span : records_) {
-    if (!with_records) break;
+  for (const SpanRecord& span : with_records ? std::span<const SpanRecord>(records_) : std::span<const SpanRecord>()) {
     const auto node = node_of.find(span.label);
     trace.records.push_back({span.begin_ns, span.end_ns, node == node_of.end() ? no_task : node->second, replay++, 0, 0, 0,
                              node == node_of.end() ? Activity::idle : Activity::task});

@@ -193,10 +193,7 @@ void doubt_tower(scene::Doubts& doubts, const AeroOptions& aero, const RotorOpti
                         "blades that are bent away from the tower", "look at the sign of its x, or at the tower's foot"});
   constexpr double most_above = 0.2, most_drag = 3.0;  // DNV-RP-C205, table E-1: sections of any shape have up to 2.3
   const double top = aero.tower->stations.back()[0];
-  if (top > hub_height + most_above * radius)
-    doubts.push_back({"aero.tower.stations", fmt::format("a top at {:.4g} m where the hub is at {:.4g} m", top, hub_height),
-                      "a top at the hub's height", "look at its unit: m above still water"});
-  if (constexpr double least_top = 0.6; top < least_top * hub_height)
+  if (constexpr double least_top = 0.6; top > hub_height + most_above * radius || top < least_top * hub_height)
     doubts.push_back({"aero.tower.stations", fmt::format("a top at {:.4g} m where the hub is at {:.4g} m", top, hub_height),
                       "a top at the hub's height", "look at its unit: m above still water, and whether a station is missing"});
   for (const auto& [height, diameter, drag] : aero.tower->stations)

@@ -160,12 +160,16 @@ std::string what_holds(const std::string& mode) {
   return "look at the lines, at the loads that turn with it and at the shapes";
 }
 
+/// Of all modes, which come fastest first [1/s]; 0 without any.
+double fastest_rate(const Stability& stability) {
+  return stability.linearisation.modes.empty() ? 0.0 : std::abs(stability.linearisation.modes.front().eigenvalue);
+}
+
 void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
   if (floating.particle_plan()) return;
   const bool drag =
       floating.scenario().has_given_waves();  // quadratic in the motion, it is not in the modes: only what no drag holds is told
-  double fastest = 0.0;
-  for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
+  const double fastest = fastest_rate(stability);
   for (const bodies::Mode& mode : stability.linearisation.modes) {
     const double rate = mode.eigenvalue.real(), size = std::abs(mode.eigenvalue);
     if (rate <= 1e-3 * size || rate <= 1e-4 || size < 1e-6 * fastest) continue;
@@ -256,8 +260,7 @@ void doubt_fine_step(scene::Doubts& doubts, const FloatingSystem& floating, cons
   const Scenario& s = floating.scenario();
   const auto is_dynamic = [](const auto& line) { return bool(moorings::line_models().named(line.options.model).make_dynamic); };
   if (floating.particle_plan() || s.resolves_air() || std::ranges::any_of(s.moorings, is_dynamic)) return;
-  double fastest = 0.0;
-  for (const bodies::Mode& mode : stability.linearisation.modes) fastest = std::max(fastest, std::abs(mode.eigenvalue));
+  const double fastest = fastest_rate(stability);
   if (fastest <= 0.0 || 2.0 * pi / fastest < most * s.time.step()) return;
   doubts.push_back(
       {"time.step_s", fmt::format("{:.4g} s where the fastest motion takes {:.3g} s", s.time.step(), 2.0 * pi / fastest),

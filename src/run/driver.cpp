@@ -181,12 +181,10 @@ void Driver::describe_times() {
   }
   if (!settings_.record_graph.empty()) write_recording();
   const auto records = std::int64_t(runtime::summed(world.comm, {double(ledger_.records())})[0]);
-  if (records > 0) {
-    if (settings_.ended) settings_.ended(summary_);
-    read_records(records);
-  } else if (world.rank == 0) {
-    spdlog::info("{}", efficiency_table(of_sums));
-  }
+  if (world.rank == 0 && (records == 0 || records > settings_.most_in_table)) spdlog::info("{}", efficiency_table(of_sums));
+  if (records == 0) return;
+  if (settings_.ended) settings_.ended(summary_);
+  read_records(records);
 }
 
 void Driver::read_records(std::int64_t records) {
@@ -205,11 +203,11 @@ void Driver::read_records(std::int64_t records) {
                  {"transfer efficiency", e.transfer, "what moving data leaves"}});
     spdlog::info("{}", efficiency_table(e));
   } else {
-    spdlog::warn("no table of efficiency: it is made of at most {} records, of which there are {}; --windows keeps fewer{}",
-                 settings_.most_in_table, records,
-                 settings_.record_graph.empty()
-                     ? ""
-                     : fmt::format(", and spindrift replay {} has a table of the recording", settings_.record_graph));
+    spdlog::warn(
+        "the table of efficiency is without dependencies: it reads at most {} records, of which there are {}; --windows keeps "
+        "fewer{}",
+        settings_.most_in_table, records,
+        settings_.record_graph.empty() ? "" : fmt::format(", and spindrift replay {} has them", settings_.record_graph));
   }
   if (settings_.trace) write_chrome_trace(traces_, directory_.trace().string());
 }
