@@ -4,14 +4,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
+#include <vector>
 
 #include "kernels/linear/stencil_matrix.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow_size.hpp"
-#include "src/aero/grid/coarsen.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
@@ -34,6 +35,14 @@ struct Kind {
   bool turns = true;    ///< faces have speeds: a rotor's grid, which turns with it
   bool moving = false;  ///< nodes have places of steps before
   TilingOptions tiles;
+  bool coarse = false;  ///< the preconditioner has groups of cells that move together
+  int group_cells = 0, direct_groups = 0;
+};
+
+/// Of blocks: their tiles, and the groups of cells of a coarse correction.
+struct Parts {
+  double bytes = 0.0, groups = 0.0;
+  Parts& operator+=(const Parts& more) { return bytes += more.bytes, groups += more.groups, *this; }
 };
 
 Kind kind_of(const FlowOptions& o) {
@@ -43,6 +52,7 @@ Kind kind_of(const FlowOptions& o) {
   kind.unknowns += kind.turbulence;
   kind.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
   kind.tiles = tile_limits(o);
+  kind.coarse = o.preconditioner == "coarse", kind.group_cells = o.group_cells, kind.direct_groups = o.direct_groups;
   kind.krylov_steps = o.krylov_steps, kind.flexible = o.krylov != KrylovMethod::gmres;
   return kind;
 }
@@ -62,6 +72,7 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, directions));
   if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, directions));
   if (kind.flexible) vectors += kind.krylov_steps;
+  if (kind.coarse) matrix += 25.0 * double(cells.count());  // blocks to cells of the same group, added up
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
   // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
   bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
@@ -72,28 +83,40 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
 }
 
 /// Of a block cut as tiling.cpp does; which direction is i matters little.
-double block_bytes(const Kind& kind, std::array<int, 3> n) {
+Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
   const Index target = tile_target(n[0], false, false, kind.tiles);
-  std::array<double, 3> parts;
+  double tiles = 1.0, groups_of_tile = 1.0;
   std::array<int, 3> size;
   for (std::size_t d = 0; d < 3; ++d) {
     const int pieces = std::max(1, (n[d] + target[d] - 1) / target[d]);
-    size[d] = (n[d] + pieces - 1) / pieces, parts[d] = double(n[d]) / size[d];
+    size[d] = (n[d] + pieces - 1) / pieces, tiles *= double(n[d]) / size[d];
+    if (kind.group_cells > 0) groups_of_tile *= (size[d] + kind.group_cells - 1) / kind.group_cells;
   }
-  return parts[0] * parts[1] * parts[2] * tile_bytes(kind, size[0], size[1], size[2]);
+  return {tiles * tile_bytes(kind, size[0], size[1], size[2]), tiles * groups_of_tile};
 }
 
-double sector_bytes(const Kind& kind, const RotorGridSpec& spec) {
+/// Of the coarse level's matrix and factors. By elimination: an envelope as wide as a plane through all groups (a line in the
+/// plane), in double, and the entries it is made of, twice. By multigrid: the matrix, its coarser ones and their factors.
+double coarse_level_bytes(const Kind& kind, double groups) {
+  if (!kind.coarse) return 0.0;
+  constexpr double block = 25.0 * sizeof(double), entries = 7.0, levels = 4.0;
+  if (groups > kind.direct_groups) return groups * entries * block * levels;
+  return groups * block * (2.0 * std::pow(groups, kind.planar ? 1.0 / 2.0 : 2.0 / 3.0) + 2.0 * entries);
+}
+
+/// Cells of the sector's blocks along their directions.
+std::vector<std::array<int, 3>> blocks_of_sector(const RotorGridSpec& spec) {
   const auto kept = [&](int n) { return std::max(1, n >> spec.coarsen); };
   const RotorGridSizes& z = spec.sizes;
-  const int radial = kept(z.radial());
-  double bytes = block_bytes(kind, {kept(z.layers), kept(z.round), radial}) +
-                 block_bytes(kind, {kept(z.edge), kept(z.chordwise()), kept(z.outboard)});
-  for (const int along : {z.upstream, z.downstream}) {
-    bytes += 2.0 * block_bytes(kind, {kept(z.beside), kept(along), radial});
-    bytes += block_bytes(kind, {kept(z.box_chordwise()), kept(along), radial});
+  const int radial = kept(z.radial()), beside = kept(z.beside);
+  std::vector<std::array<int, 3>> blocks{{kept(z.layers), kept(z.round), radial},
+                                         {kept(z.edge), kept(z.chordwise()), kept(z.outboard)}};
+  for (const int along : {kept(z.upstream), kept(z.downstream)}) {
+    blocks.insert(blocks.end(), 2, {beside, along, radial});
+    blocks.push_back({kept(z.box_chordwise()), along, radial});
   }
-  return bytes + 2.0 * block_bytes(kind, {kept(z.beside), kept(z.box), radial});
+  blocks.insert(blocks.end(), 2, {beside, kept(z.box), radial});
+  return blocks;
 }
 
 }  // namespace
@@ -113,7 +136,9 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
   size.stations = spec.sizes.span >> spec.coarsen;
   const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
-  size.bytes = size.sectors * sector_bytes(kind, spec) + (kind.moving ? state : 0.0);
+  Parts sector;
+  for (const std::array<int, 3>& block : blocks_of_sector(spec)) sector += parts_of_block(kind, block);
+  size.bytes = size.sectors * sector.bytes + coarse_level_bytes(kind, size.sectors * sector.groups) + (kind.moving ? state : 0.0);
   size.bytes_of_checkpoint = state;
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(setup.flow);
   return size;
@@ -124,17 +149,14 @@ FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
   kind.planar = grid.planar;
   kind.turns = kind.moving = flow.motion && kind.time_order > 0;
   FlowSize size;
-  double nodes = 0.0;
+  Parts parts;
   for (const Block& b : grid.blocks) {
     size.cells += long(b.ni) * b.nj * b.nk;
-    size.bytes += block_bytes(kind, {b.ni, b.nj, b.nk});
-    nodes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);
+    parts += parts_of_block(kind, {b.ni, b.nj, b.nk});
+    size.bytes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);  // nodes of the grid as read or made
   }
-  // A steady march begins on grids of half the cells along each direction, while the fine one is there already.
-  const double halved = grid.planar ? 0.25 : 0.125;
-  if (kind.time_order == 0 && flow.coarse_steps.value_or(usual_coarse_steps) > 0 && why_not_halved(grid).empty())
-    size.bytes *= 1.0 + halved * (1.0 + halved);
-  size.bytes += nodes;
+  // The coarser grids that a steady march begins on are gone before the fine one's matrix is first written: they add nothing.
+  size.bytes += parts.bytes + coarse_level_bytes(kind, parts.groups);
   size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(flow) * (grid.planar ? planar_share : 1.0);
   return size;

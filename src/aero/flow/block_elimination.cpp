@@ -62,7 +62,8 @@ double inner(const double* a, const double* b, std::ptrdiff_t count) {
 
 }  // namespace
 
-BlockElimination::BlockElimination(int rows, std::span<const Entry> entries) : place_(order_rows(rows, entries)) {
+void BlockElimination::factorise(int rows, std::span<const Entry> entries) {
+  place_ = order_rows(rows, entries);
   const std::size_t count = std::size_t(rows);
   low_.resize(count), begin_.resize(count);
   std::iota(low_.begin(), low_.end(), 0);

@@ -18,13 +18,11 @@ class BlockElimination {
     int row, column;
     std::array<double, 25> block;  ///< column by column
   };
-  BlockElimination() = default;
-  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Throws SingularMatrix
-  /// naming the row of a singular pivot.
-  BlockElimination(int rows, std::span<const Entry> entries);
-  /// x = A^-1 b; both [row][5], may be the same.
+  /// Entries of the same place add up; the pattern must be symmetric after that, with a diagonal. Keeps its memory for the next
+  /// matrix. Throws SingularMatrix naming the row of a singular pivot; then it has no factors.
+  void factorise(int rows, std::span<const Entry> entries);
+  /// x = A^-1 b, of the matrix last factorised; both [row][5], may be the same.
   void solve(std::span<const double> b, std::span<double> x) const;
-  std::size_t bytes() const { return (lower_.size() + upper_.size() + pivots_.size()) * sizeof(double); }
 
  private:
   /// Row i of the lower part and column i of the upper one: [5][blocks of the envelope][5], the inner index running along the

@@ -247,7 +247,7 @@ struct CoarseCorrection final : IluAfterCoarse {
         // As one process would have them: by row, each row's from one process in its order.
         std::ranges::stable_sort(entries, {}, &BlockElimination::Entry::row);
       }
-      elimination = BlockElimination(total, entries);
+      elimination.factorise(total, entries);
       all.assign(std::size_t(total) * width, 0.0);
       return;
     }

@@ -59,11 +59,23 @@ TEST_CASE("elimination of block rows gives what dense algebra gives, in any orde
     }
   std::vector<double> b(rows * n), x(rows * n);
   for (double& value : b) value = number(random);
-  BlockElimination(rows, entries).solve(b, x);
+  BlockElimination elimination;
+  elimination.factorise(rows, entries);
+  elimination.solve(b, x);
   const Eigen::VectorXd wanted = dense.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(b.data(), rows * n));
   for (int i = 0; i < rows * n; ++i) CHECK(x[std::size_t(i)] == Approx(wanted[i]).margin(1e-12));
+
+  const std::vector<double> first = x;
+  BlockElimination used;  // by a larger matrix without couplings before
+  std::vector<BlockElimination::Entry> apart;
+  for (int r = 0; r < 2 * rows; ++r) apart.push_back({r, r, entries.front().block});
+  used.factorise(2 * rows, apart);
+  used.factorise(rows, entries);
+  used.solve(b, x);
+  CHECK(x == first);
+
   for (BlockElimination::Entry& e : entries) e.block.fill(0.0);
-  CHECK_THROWS_WITH(BlockElimination(rows, entries), Catch::Contains("singular"));
+  CHECK_THROWS_WITH(elimination.factorise(rows, entries), Catch::Contains("singular"));
 }
 
 TEST_CASE("a coarse correction ends in the solution of block ILU in fewer iterations, by elimination or multigrid",
