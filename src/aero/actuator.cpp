@@ -161,23 +161,29 @@ void Actuator::find_cells(Part& part, const FlowTile& tile) const {
       low = low.cwiseMin(x), high = high.cwiseMax(x);
     }
   });
-  for (std::size_t n = 0; n < points_.size(); ++n) {
-    const Eigen::Vector3d x = rotor_.hub + points_[n].arm;
-    const double width = width_[points_[n].element], reach2 = kernel_reach * width * kernel_reach * width;
-    if ((x.cwiseMin(high).cwiseMax(low) - x).squaredNorm() > reach2) continue;
-    const std::uint32_t first = std::uint32_t(part.cells.size());
+  const auto for_reached = [&](std::size_t point, auto&& reached) {
+    const Eigen::Vector3d x = rotor_.hub + points_[point].arm;
+    const double width = width_[points_[point].element], reach2 = kernel_reach * width * kernel_reach * width;
+    if ((x.cwiseMin(high).cwiseMax(low) - x).squaredNorm() > reach2) return;
     for_rows(tile.box, [&](int k, int j) {
-      for (int i = 0; i < tile.box.ni; ++i) {
-        const double distance2 = (centre(k, j, i) - x).squaredNorm();
-        if (distance2 > reach2) continue;
-        const double kernel = gaussian_kernel(distance2, width);
-        part.cells.push_back({std::int32_t(tile.cells.at(k, j, i)), std::int32_t(tile.inner.at(k, j, i)), kernel,
-                              kernel * g.volume_data.data()[g.cell_box.at(k, j, i)]});
-      }
+      for (int i = 0; i < tile.box.ni; ++i)
+        if (const double distance2 = (centre(k, j, i) - x).squaredNorm(); distance2 <= reach2) reached(k, j, i, distance2, width);
+    });
+  };
+  if (part.cells.capacity() == 0) {  // those of a disc are many: as much memory as they take
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < points_.size(); ++n) for_reached(n, [&](auto&&...) { ++count; });
+    part.cells.reserve(count);
+  }
+  for (std::size_t n = 0; n < points_.size(); ++n) {
+    const std::uint32_t first = std::uint32_t(part.cells.size());
+    for_reached(n, [&](int k, int j, int i, double distance2, double width) {
+      const double kernel = gaussian_kernel(distance2, width);
+      part.cells.push_back({std::int32_t(tile.cells.at(k, j, i)), std::int32_t(tile.inner.at(k, j, i)), kernel,
+                            kernel * g.volume_data.data()[g.cell_box.at(k, j, i)]});
     });
     if (part.cells.size() > first) part.reaches.push_back({std::uint32_t(n), first, std::uint32_t(part.cells.size())});
   }
-  if (kind_ == Kind::disc) part.cells.shrink_to_fit();  // of a disc they are many, and stay
   part.placed = placed_;
 }
 

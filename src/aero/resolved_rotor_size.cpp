@@ -82,6 +82,12 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   return bytes;
 }
 
+/// Of the copy of a tile's fields that is written as the run goes on: pressure, velocity, temperature, what turbulence carries;
+/// nodes.
+double output_bytes(const Kind& kind, int ni, int nj, int nk) {
+  return sizeof(double) * (double(kind.unknowns) * ni * nj * nk + 3.0 * (ni + 1.0) * (nj + 1.0) * (nk + 1.0));
+}
+
 /// Of a block cut as tiling.cpp does; which direction is i matters little.
 Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
   const Index target = tile_target(n[0], false, false, kind.tiles);
@@ -92,7 +98,8 @@ Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
     size[d] = (n[d] + pieces - 1) / pieces, tiles *= double(n[d]) / size[d];
     if (kind.group_cells > 0) groups_of_tile *= (size[d] + kind.group_cells - 1) / kind.group_cells;
   }
-  return {tiles * tile_bytes(kind, size[0], size[1], size[2]), tiles * groups_of_tile};
+  return {tiles * (tile_bytes(kind, size[0], size[1], size[2]) + output_bytes(kind, size[0], size[1], size[2])),
+          tiles * groups_of_tile};
 }
 
 /// Of the coarse level's matrix and factors. By elimination: an envelope as wide as a plane through all groups (a line in the

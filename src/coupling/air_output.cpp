@@ -73,14 +73,20 @@ Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
   auto& values = copy->values;
   kept.reserve(solver_.tiles().size() * std::size_t(4 + carried));
   for (const aero::FlowTile& t : solver_.tiles()) {
+    const std::size_t cells = std::size_t(t.box.count());
+    const auto array_of = [&](std::size_t count) -> std::vector<double>& {
+      auto& array = kept.emplace_back();
+      array.reserve(count);
+      return array;
+    };
     const auto component = [&](int c, double offset) -> std::vector<double>& {
-      auto& out = kept.emplace_back();
+      auto& out = array_of(cells);
       aero::for_rows(t.box, [&](int k, int j) {
         for (int i = 0; i < t.box.ni; ++i) out.push_back(offset + t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
       });
       return out;
     };
-    auto& points = kept.emplace_back();
+    auto& points = array_of(3 * std::size_t(t.box.ni + 1) * std::size_t(t.box.nj + 1) * std::size_t(t.box.nk + 1));
     const BoxLayout& nodes = t.geometry->node_box;
     for (int k = 0; k <= t.box.nk; ++k)
       for (int j = 0; j <= t.box.nj; ++j)
@@ -88,7 +94,7 @@ Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
           for (int c = 0; c < 3; ++c) points.push_back(t.geometry->node_data.data()[c * nodes.component + nodes.at(k, j, i)]);
     io::GridFields::Values v{t.index, points, {}};
     v.fields.push_back(component(0, gas.pressure_reference));
-    auto& velocity = kept.emplace_back();
+    auto& velocity = array_of(3 * cells);
     aero::for_rows(t.box, [&](int k, int j) {
       for (int i = 0; i < t.box.ni; ++i)
         for (int c = 1; c < 4; ++c) velocity.push_back(t.state.data()[c * t.cells.component + t.cells.at(k, j, i)]);
