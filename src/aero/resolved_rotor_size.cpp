@@ -102,13 +102,17 @@ Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
           tiles * groups_of_tile};
 }
 
-/// Of the coarse level's matrix and factors. By elimination: an envelope as wide as a plane through all groups (a line in the
-/// plane), in double, and the entries it is made of, twice. By multigrid: the matrix, its coarser ones and their factors.
-double coarse_level_bytes(const Kind& kind, double groups) {
-  if (!kind.coarse) return 0.0;
+/// Counts a coarse level's matrix and factors. By elimination, which every rank makes: an envelope as wide as a plane through all
+/// groups (a line in the plane), in double, and the entries it is made of, twice. By multigrid, shared: the matrix, its coarser
+/// ones and their factors.
+template <class Size>
+void add_coarse_level(Size& size, const Kind& kind, double groups) {
+  if (!kind.coarse) return;
   constexpr double block = 25.0 * sizeof(double), entries = 7.0, levels = 4.0;
-  if (groups > kind.direct_groups) return groups * entries * block * levels;
-  return groups * block * (2.0 * std::pow(groups, kind.planar ? 1.0 / 2.0 : 2.0 / 3.0) + 2.0 * entries);
+  if (groups > kind.direct_groups)
+    size.bytes += groups * entries * block * levels;
+  else
+    size.bytes_each = groups * block * (2.0 * std::pow(groups, kind.planar ? 1.0 / 2.0 : 2.0 / 3.0) + 2.0 * entries);
 }
 
 /// Cells of the sector's blocks along their directions.
@@ -145,7 +149,8 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
   Parts sector;
   for (const std::array<int, 3>& block : blocks_of_sector(spec)) sector += parts_of_block(kind, block);
-  size.bytes = size.sectors * sector.bytes + coarse_level_bytes(kind, size.sectors * sector.groups) + (kind.moving ? state : 0.0);
+  size.bytes = size.sectors * sector.bytes + (kind.moving ? state : 0.0);
+  add_coarse_level(size, kind, size.sectors * sector.groups);
   size.bytes_of_checkpoint = state;
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(setup.flow);
   return size;
@@ -163,7 +168,8 @@ FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
     size.bytes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);  // nodes of the grid as read or made
   }
   // The coarser grids that a steady march begins on are gone before the fine one's matrix is first written: they add nothing.
-  size.bytes += parts.bytes + coarse_level_bytes(kind, parts.groups);
+  size.bytes += parts.bytes;
+  add_coarse_level(size, kind, parts.groups);
   size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(flow) * (grid.planar ? planar_share : 1.0);
   return size;

@@ -14,6 +14,7 @@ struct PartCost {
   double count = 0.0;             ///< of `things`
   std::string things;             ///< "cells"
   double bytes = 0.0;             ///< while it runs, on all ranks together
+  double bytes_each = 0.0;        ///< besides on every rank, however many there are
   double checkpoint_bytes = 0.0;  ///< more of them while a checkpoint is written
   double work_per_second = 0.0;   ///< per simulated second
   std::string work;               ///< "pseudo-steps"

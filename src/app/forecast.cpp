@@ -186,6 +186,7 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
                 .count = double(size.cells),
                 .things = "cells",
                 .bytes = size.bytes + (notes - 1) * size.bytes_of_checkpoint,
+                .bytes_each = size.bytes_each,
                 .checkpoint_bytes = size.bytes_of_checkpoint,
                 .work_per_second = steps.per_second,
                 .work = steps.work,
@@ -236,7 +237,7 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   Forecast f{.core_seconds = output_seconds, .columns = columns_of(floating)};
   const auto add = [&](const PartCost& part) {
     f.core_seconds += part.core_seconds_per_work * (part.work_before + part.work_per_second * s.time.end_s);
-    f.bytes += part.bytes + part.checkpoint_bytes;
+    f.bytes += part.bytes + part.bytes_each + part.checkpoint_bytes;
   };
   if (s.has_actuator()) add(cost_of_flow(s, aero::flow_grid(*s.aero.flow)));
   if (has_resolved_rotor(s)) {
@@ -372,6 +373,7 @@ PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& g
                 .count = double(size.cells),
                 .things = "cells",
                 .bytes = size.bytes + notes * size.bytes_of_checkpoint + actuator,
+                .bytes_each = size.bytes_each,
                 .checkpoint_bytes = size.bytes_of_checkpoint,
                 .work_per_second = steps.per_second,
                 .work = steps.work,
@@ -406,7 +408,7 @@ Forecast forecast_of_air(const coupling::Scenario& s) {
   }
   Forecast f{
       .core_seconds = output_seconds + cost.core_seconds_per_work * (cost.work_before + cost.work_per_second * s.time.end_s),
-      .bytes = cost.bytes + cost.checkpoint_bytes + resident + output_bytes};
+      .bytes = cost.bytes + cost.bytes_each + cost.checkpoint_bytes + resident + output_bytes};
   f.columns = columns_of_air_alone();
   return f;
 }

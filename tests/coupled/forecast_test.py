@@ -84,5 +84,23 @@ class Forecasts(Folder):
         self.within(float(re.search(r"(\S+) evaluations of all per simulated second", said).group(1)) * end, counts["particle_evaluations"])
 
 
+class Ranks(Folder):
+    """Memory of a rank, beside its share: the program, messages, what all ranks have."""
+
+    def test_memory_of_a_rank_is_that_of_the_run(self):
+        case = ROOT / "inputs/leble_barakos/case3_demo.toml"
+        shorter = ["start.air_steps=4", "time.end_s=0.1"]
+        said = spindrift("check", case, settings=shorter)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        each = re.search(r"^  memory of a rank each +(.*)$", said.stdout, re.M).group(1).split(" MB")
+        checkpoint = float(re.search(r"\((\S+) MB more while a checkpoint is written\)", said.stdout).group(1))
+        for ranks, number in zip((1, 2, 8, 16), each):
+            with self.subTest(ranks):
+                done = spindrift("run", case, "--out", self.out, "--overwrite", "--no-report", "--quiet", settings=shorter, ranks=ranks, timeout=1200)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                measured = json.loads((self.out / "summary.json").read_text())["peak_memory_bytes"] / ranks
+                self.assertLess(abs((float(number) + checkpoint / ranks) * 1e6 / measured - 1.0), 0.15, f"{number} MB, measured {measured:.4g}")
+
+
 if __name__ == "__main__":
     unittest.main()
