@@ -51,6 +51,7 @@ class BulkSynchronous {
   static std::uint32_t origin(const RankRun& rank, std::uint32_t node) { return rank.origin.empty() ? node : rank.origin[node]; }
   static std::uint32_t body_of(const RankRun& rank, std::uint32_t loop) { return loop == no_node ? no_node : origin(rank, loop); }
   std::uint32_t body_of_loop(const Member& m) const { return origin(ranks_[std::size_t(m.rank)], m.node); }
+  int number(int rank) const { return number_of(ranks_, rank); }
   const NodeRecord& node(const Member& m) const { return ranks_[std::size_t(m.rank)].graph.nodes[m.node]; }
 
   std::vector<Phase> phases(const std::vector<Member>& members) const {
@@ -92,7 +93,7 @@ class BulkSynchronous {
       return body(origin(rank, first.node), entry < entries.size() ? entries[entry] : min, min);
     }
     if (phase.kind == NodeKind::send) return messages(phase);
-    const int ranks = int(ranks_.size());
+    const int ranks = ranks_in_all(cluster_, int(ranks_.size()));
     double longest = 0.0;
     const double most = phase.kind == NodeKind::collective ? least_s(phase) : std::numeric_limits<double>::infinity();
     std::map<int, std::vector<double>> free;  // by rank: when each of its threads is
@@ -116,7 +117,7 @@ class BulkSynchronous {
 
   double recorded_s(const Member& m, std::uint32_t execution) const {
     const auto& ns = ranks_[std::size_t(m.rank)].run.ns[m.node];
-    return execution < ns.size() ? 1e-9 * double(ns[execution]) * speed_factor(cluster_, m.rank) : 0.0;
+    return execution < ns.size() ? 1e-9 * double(ns[execution]) * speed_factor(cluster_, number(m.rank)) : 0.0;
   }
 
   double cost_s(const Member& m, NodeKind kind, double most) {
@@ -135,7 +136,8 @@ class BulkSynchronous {
     for (const Member& m : phase.members) {
       const NodeRecord& at = node(m);
       if (at.kind != NodeKind::send) continue;
-      const Wire& wire = cluster_.node_of(m.rank) == cluster_.node_of(at.peer) ? cluster_.within : cluster_.between;
+      const Wire& wire =
+          cluster_.node_of(number(m.rank)) == cluster_.node_of(number(at.peer)) ? cluster_.within : cluster_.between;
       latency = std::max(latency, wire.latency_s);
       of_rank[m.rank] += double(at.bytes) / wire.bytes_per_s;
       out_.bytes += double(at.bytes), ++out_.messages;

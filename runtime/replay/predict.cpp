@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
+#include "runtime/replay/copies.hpp"
 #include "runtime/replay/recut.hpp"
 #include "runtime/trace/rank_trace.hpp"
 
@@ -37,9 +39,11 @@ double task_s(const RunRecord& run) { return 1e-9 * double(run.task_ns); }
 /// Sums up what windows come to.
 class Windows {
  public:
-  Windows(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of)
-      : recording_(recording), side_of_(side_of) {
+  Windows(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of, int most_units)
+      : recording_(recording), side_of_(side_of), units_(units_of(cluster)), simulated_(std::min(units_.count, most_units)) {
     out_.placement = placement, out_.cluster = cluster;
+    out_.cluster.times = double(units_.count) / simulated_;
+    out_.simulated_copies = simulated_ * units_.copies;
   }
 
   Prediction predict() {
@@ -48,12 +52,13 @@ class Windows {
       if (runs.empty()) continue;  // a record was lost
       double in_graphs = 0.0;
       for (const RunRecord* run : runs) in_graphs += 1e-9 * double(run->wall_ns);
-      out_.outside_s += std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs);
+      const Cluster& c = out_.cluster;
+      out_.outside_s += std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs) * std::max(1.0, double(c.copies) / c.ranks);
       if (recording_.ranks.size() == 1)
-        for (const RunRecord* run : runs) out_.work_s += task_s(*run);
+        for (const RunRecord* run : runs) out_.work_s += c.copies * task_s(*run);
       ++out_.windows;
       recording_.ranks.size() > 1 ? as_recorded(window.number) : recut_window(runs);
-      if (out_.windows > 1) out_.tasks.slices.resize(slices_);
+      if (out_.windows > 1 || simulated_ < units_.count) out_.tasks.slices.resize(slices_);
       slices_ = out_.tasks.slices.size();
     }
     if (out_.windows == 0) throw std::invalid_argument("the recording has no window");
@@ -103,23 +108,23 @@ class Windows {
         case Placement::in_turns:
         case Placement::bulk_synchronous:
           for (const RankRun* piece : {first, second})
-            if (piece) out_.tasks += simulated(cut(*piece, out_.cluster.ranks, 0));
+            if (piece) out_.tasks += simulated(numbered(cut(*piece, units_.ranks)));
           break;
         case Placement::shared:
-          out_.tasks += simulated(cut(first && second ? joined(*first, *second)
-                                      : first         ? *first
-                                                      : *second,
-                                      out_.cluster.ranks, 0));
+          out_.tasks += simulated(numbered(cut(first && second ? joined(*first, *second)
+                                               : first         ? *first
+                                                               : *second,
+                                               units_.ranks)));
           break;
         case Placement::split: {
           std::vector<RankRun> all;
           const int second_ranks = ranks_of_second(pieces);
-          const int first_ranks = out_.cluster.ranks - second_ranks;
+          const int first_ranks = units_.ranks - second_ranks;
           for (const auto& [piece, ranks, from, group] :
                {std::tuple{first, first_ranks, 0, 0}, std::tuple{second, second_ranks, first_ranks, 1}})
             if (piece)
-              for (RankRun& rank : cut(*piece, ranks, from)) rank.group = group, all.push_back(std::move(rank));
-          out_.tasks += simulated(all);
+              for (RankRun& rank : cut(*piece, ranks, from, int(all.size()))) rank.group = group, all.push_back(std::move(rank));
+          out_.tasks += simulated(numbered(std::move(all)));
           break;
         }
       }
@@ -134,31 +139,61 @@ class Windows {
       for (const RankRun& piece : pieces[side])
         for (const auto& ns : piece.run.ns)
           for (const std::int64_t one : ns) work[side] += double(one);
-    const int ranks = out_.cluster.ranks;
+    const int ranks = units_.ranks;
     return out_.second_side_ranks =
                std::clamp(int(std::lround(ranks * work[1] / std::max(1.0, work[0] + work[1]))), 1, ranks - 1);
   }
 
-  std::vector<RankRun> cut(const RankRun& piece, int ranks, int first_rank) {
-    Recut made = recut(piece.graph, piece.run, ranks, first_rank);
+  /// For so many ranks of each unit that is simulated, those from `first` on. `listed`: ranks that stand in the list before.
+  std::vector<RankRun> cut(const RankRun& piece, int ranks, int first = 0, int listed = 0) {
+    std::optional<RankRun> many;
+    if (out_.cluster.copies > 1)
+      many = copies(piece.graph, piece.run, out_.simulated_copies, std::max(1.0, double(units_.copies) / ranks));
+    const RankRun& whole = many ? *many : piece;
+    Recut made = recut(whole.graph, whole.run, simulated_ * ranks, listed, simulated_);
     for (const double imbalance : made.quality.imbalance) out_.imbalance = std::max(out_.imbalance, imbalance);
     double work = 0.0;
-    for (const auto& ns : piece.run.ns)
+    for (const auto& ns : whole.run.ns)
       for (const std::int64_t one : ns) work += 1e-9 * double(one);
     repeated_s_ += made.repeated * work;
+    for (int n = 0; n < simulated_ * ranks; ++n) made.ranks[std::size_t(n)].number = n / ranks * units_.ranks + first + n % ranks;
     return std::move(made.ranks);
+  }
+
+  /// The units that are simulated become the one whose most loaded rank is the slowest of all and those that follow it.
+  std::vector<RankRun> numbered(std::vector<RankRun> ranks) const {
+    std::vector<double> load(std::size_t(units_.ranks), 0.0);
+    for (const RankRun& rank : ranks)
+      if (rank.number < units_.ranks)
+        for (const auto& ns : rank.run.ns) load[std::size_t(rank.number)] += std::accumulate(ns.begin(), ns.end(), 0.0);
+    int slowest = 0;
+    double longest = 0.0;
+    for (int r = 0; r < units_.count * units_.ranks; ++r)
+      if (const double s = load[std::size_t(r % units_.ranks)] * speed_factor(out_.cluster, r); s > longest)
+        longest = s, slowest = r / units_.ranks;
+    for (RankRun& rank : ranks) {
+      const int unit = rank.number / units_.ranks;
+      rank.number += ((slowest + unit) % units_.count - unit) * units_.ranks;
+    }
+    return ranks;
   }
 
   Prediction mean() {
     const double n = out_.windows;
     Simulated& tasks = out_.tasks;
+    out_.second_side_ranks *= units_.count;
     // Collective calls of several ranks contain the wait for each other: what they did is what is simulated.
     if (recording_.ranks.size() > 1) out_.work_s = tasks.busy_s;
+    for (double* sum : {&tasks.busy_s, &tasks.overhead_s, &tasks.waiting_s, &tasks.bytes, &repeated_s_})
+      *sum *= out_.cluster.times;
+    for (auto& [module, s] : tasks.busy_of) s *= out_.cluster.times;
+    for (long* sum : {&tasks.messages, &tasks.tasks}) *sum = std::lround(double(*sum) * out_.cluster.times);
     out_.repeated = out_.work_s > 0.0 ? repeated_s_ / out_.work_s : 0.0;
     for (double* sum : {&out_.outside_s, &out_.work_s, &tasks.wall_s, &tasks.busy_s, &tasks.overhead_s, &tasks.waiting_s,
                         &tasks.critical_path_s, &tasks.bytes})
       *sum /= n;
     for (auto& [module, s] : tasks.busy_of) s /= n;
+    for (Link& link : tasks.critical_path) link.s /= n, link.executions = std::lround(double(link.executions) / n);
     for (long* sum : {&tasks.messages, &tasks.reductions, &tasks.tasks}) *sum = std::lround(double(*sum) / n);
     out_.wall_s = tasks.wall_s + out_.outside_s;
     const double cores = double(out_.cluster.ranks) * out_.cluster.threads;
@@ -168,6 +203,8 @@ class Windows {
 
   const Recording& recording_;
   const SideOf& side_of_;
+  const Units units_;
+  const int simulated_;  ///< units
   std::size_t slices_ = 0;
   double repeated_s_ = 0.0;
   Prediction out_;
@@ -250,12 +287,21 @@ std::vector<Placement> possible(const Recording& recording, int ranks, const Sid
   return {std::begin(placements), std::end(placements)};
 }
 
-Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of) {
+Units units_of(const Cluster& cluster) {
+  const int count = cluster.copies == 1 ? 1 : std::gcd(std::gcd(cluster.copies, cluster.nodes), cluster.ranks);
+  return {count, cluster.copies / count, cluster.ranks / count};
+}
+
+Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of,
+                   int most_units) {
+  if (recording.ranks.size() > 1 && cluster.copies > 1)
+    throw std::invalid_argument("was recorded on " + std::to_string(recording.ranks.size()) +
+                                " ranks; copies are made of a recording of one rank");
   if (recording.ranks.size() > 1 && int(recording.ranks.size()) != cluster.ranks)
     throw std::invalid_argument("was recorded on " + std::to_string(recording.ranks.size()) +
                                 " ranks and is replayed on these alone, not on " + std::to_string(cluster.ranks) +
                                 "; a recording of one rank can be cut for any number");
-  return Windows(recording, cluster, placement, side_of).predict();
+  return Windows(recording, cluster, placement, side_of, most_units).predict();
 }
 
 }  // namespace spindrift::runtime

@@ -26,11 +26,13 @@ struct Prediction {
   Cluster cluster;
   int second_side_ranks = 0;  ///< split: of the ranks
   int windows = 0;            ///< that the figures are means of
+  int simulated_copies = 1;   ///< of all
   // Per window.
   double wall_s = 0.0;
-  double outside_s = 0.0;   ///< of it between the graphs, as recorded: snapshot, exchange, schemes
-  Simulated tasks;          ///< sums over the windows' graphs, divided by the windows; slices of the first window alone
-  double work_s = 0.0;      ///< core-seconds of tasks as recorded
+  double outside_s = 0.0;  ///< of it between the graphs, as recorded for each copy that a rank has: snapshot, exchange, schemes
+  /// Sums over the windows' graphs, divided by the windows; slices of the first window alone, and only where all is simulated.
+  Simulated tasks;
+  double work_s = 0.0;      ///< core-seconds of tasks as recorded, of all copies
   double efficiency = 0.0;  ///< work_s over cores x wall_s
   double repeated = 0.0;    ///< part of the work that more than one rank does
   double imbalance = 1.0;   ///< of the most loaded rank, worst of the modules
@@ -47,11 +49,24 @@ Recording typical(const Recording& recording);
 /// The executor's own work per task, on average over all runs.
 double task_overhead_s(const Recording& recording);
 
-/// Placements that a recording can be replayed in on so many ranks: in_turns and split need two sides, split two ranks; a
-/// recording of several ranks is replayed on these alone, as it was placed or bulk-synchronously.
+/// What copies are cut into: the largest number of equal units of whole copies on whole nodes.
+struct Units {
+  int count = 1;              ///< of them
+  int copies = 1, ranks = 1;  ///< of each
+};
+Units units_of(const Cluster& cluster);
+
+/// Units that are simulated at most, where not all are asked for. They border each other in a ring, the slowest of all among
+/// them. The rest are taken to come no later to any reduction than these.
+inline constexpr int simulated_units = 4;
+
+/// Placements that a recording can be replayed in on so many ranks (of a unit): in_turns and split need two sides, split two
+/// ranks; a recording of several ranks is replayed on these alone, as it was placed or bulk-synchronously.
 std::vector<Placement> possible(const Recording& recording, int ranks, const SideOf& side_of);
 
-/// Throws std::invalid_argument where the recording cannot be had on so many ranks, or has no window.
-Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of);
+/// `most_units`: that are simulated. Throws std::invalid_argument where the recording cannot be had on so many ranks or in
+/// copies, or has no window.
+Prediction predict(const Recording& recording, const Cluster& cluster, Placement placement, const SideOf& side_of,
+                   int most_units = simulated_units);
 
 }  // namespace spindrift::runtime

@@ -9,110 +9,12 @@
 #include <tuple>
 
 #include "runtime/graph/edges.hpp"
+#include "runtime/replay/blocks.hpp"
 #include "runtime/trace/rank_trace.hpp"
 
 namespace spindrift::runtime {
 
 namespace {
-
-constexpr int no_block = -1;
-constexpr std::uint64_t unknown_bytes = 64;  // of a datum of which nothing was said
-constexpr int fields_of_tile = 3;            // a place with so many data is a tile; others follow the tile they are made from
-
-bool writes_to(const UseRecord& use) { return use.how != Access::read; }
-
-/// The blocks of a graph: of every datum, and the graph of costs and bytes that is partitioned.
-class Blocks {
- public:
-  explicit Blocks(const GraphRecord& graph, const RunRecord& run) : graph_(graph), of_(graph.data.size(), no_block) {
-    find_modules();
-    find_tiles();
-    follow_tiles();
-    weigh(run);
-  }
-  const std::vector<int>& of_datum() const { return of_; }
-  const BlockGraph& weighted() const { return weighted_; }
-  const std::vector<std::string>& modules() const { return modules_; }
-  int count() const { return int(place_.size()); }
-
- private:
-  using Place = std::pair<int, float>;  // module, place
-
-  void find_modules() {
-    module_of_datum_.assign(graph_.data.size(), -1);
-    for (const NodeRecord& node : graph_.nodes) {
-      const std::string name(module_of(node.label));
-      const auto found = std::ranges::find(modules_, name);
-      const int module = int(found - modules_.begin());
-      bool placed = false;
-      for (const UseRecord& use : node.uses)
-        if (graph_.data[use.datum].place >= 0 && module_of_datum_[use.datum] < 0)
-          module_of_datum_[use.datum] = module, placed = true;
-      if (placed && found == modules_.end()) modules_.push_back(name);
-    }
-  }
-  void find_tiles() {
-    std::map<Place, int> fields;
-    for (std::size_t d = 0; d < of_.size(); ++d)
-      if (module_of_datum_[d] >= 0) ++fields[{module_of_datum_[d], graph_.data[d].place}];
-    for (int module = 0; module < int(modules_.size()); ++module) {
-      const bool tiles =
-          std::ranges::any_of(fields, [&](const auto& f) { return f.first.first == module && f.second >= fields_of_tile; });
-      for (const auto& [place, count] : fields)
-        if (place.first == module && (!tiles || count >= fields_of_tile)) place_.emplace(place, int(place_.size()));
-    }
-    for (std::size_t d = 0; d < of_.size(); ++d) {
-      const auto block = place_.find({module_of_datum_[d], graph_.data[d].place});
-      if (module_of_datum_[d] >= 0 && block != place_.end()) of_[d] = block->second;
-    }
-  }
-  /// Data that stand at a place of their own (a sum by bundle of tiles): with the first tile that who writes them touches, else
-  /// with the nearest.
-  void follow_tiles() {
-    for (const NodeRecord& node : graph_.nodes) {
-      if (node.kind == NodeKind::loop) continue;
-      const auto tile = std::ranges::find_if(node.uses, [&](const UseRecord& use) { return of_[use.datum] != no_block; });
-      for (const UseRecord& use : node.uses)
-        if (writes_to(use) && of_[use.datum] == no_block && module_of_datum_[use.datum] >= 0)
-          of_[use.datum] =
-              tile != node.uses.end() ? of_[tile->datum] : nearest(module_of_datum_[use.datum], graph_.data[use.datum].place);
-    }
-  }
-  int nearest(int module, float place) const {
-    const auto after = place_.upper_bound({module, place});
-    return after == place_.begin() ? after->second : std::prev(after)->second;
-  }
-  void weigh(const RunRecord& run) {
-    weighted_.constraints = std::max(1, int(modules_.size()));
-    weighted_.cost.assign(std::size_t(count()) * std::size_t(weighted_.constraints), 0.0);
-    std::map<std::pair<int, int>, double> passing;
-    std::vector<int> module_of_block(place_.size());
-    for (const auto& [place, block] : place_) module_of_block[std::size_t(block)] = place.first;
-    for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
-      const NodeRecord& node = graph_.nodes[n];
-      if (node.kind != NodeKind::task) continue;
-      const auto own =
-          std::ranges::find_if(node.uses, [&](const UseRecord& use) { return writes_to(use) && of_[use.datum] != no_block; });
-      if (own == node.uses.end()) continue;
-      const int block = of_[own->datum];
-      weighted_.cost[std::size_t(block * weighted_.constraints + module_of_block[std::size_t(block)])] +=
-          std::accumulate(run.ns[n].begin(), run.ns[n].end(), 0.0);
-      for (const UseRecord& use : node.uses) {
-        const int other = of_[use.datum];
-        if (other == no_block || other == block || use.how == Access::write) continue;
-        const std::uint64_t bytes = std::max({use.bytes, graph_.data[use.datum].bytes, unknown_bytes});
-        passing[std::minmax(block, other)] += double(bytes) * double(run.ns[n].size());
-      }
-    }
-    for (const auto& [pair, weight] : passing) weighted_.edges.push_back({pair.first, pair.second, weight});
-  }
-
-  const GraphRecord& graph_;
-  std::vector<std::string> modules_;
-  std::vector<int> module_of_datum_, of_;
-  std::map<Place, int> place_;
-  BlockGraph weighted_;
-};
 
 /// Writes the graphs of all ranks in the order of recording, following which rank has the newest of every datum.
 class Cutter {
@@ -130,8 +32,8 @@ class Cutter {
     for (int r = 0; r < ranks; ++r) {
       RankRun& to = out_[std::size_t(r)];
       to.graph.data = graph.data;
-      to.run = run;
-      to.run.ns.clear(), to.run.iterations.clear();
+      to.run = {.graph = run.graph, .window = run.window, .replays = run.replays, .begin_ns = run.begin_ns};
+      to.run.wall_ns = run.wall_ns, to.run.task_ns = run.task_ns, to.run.overhead_ns = run.overhead_ns;
     }
     place_data();
     body(no_node);
@@ -343,23 +245,52 @@ class Cutter {
   double repeated_ns_ = 0.0;
 };
 
+/// Of blocks that are so many equal parts one after the other, the first: what is partitioned, for all of them alike.
+struct FirstPart {
+  FirstPart(const Blocks& blocks, int parts) : of_block(std::size_t(blocks.count())) {
+    const std::vector<int>& module = blocks.module_of_block();
+    const auto constraints = std::size_t(blocks.weighted().constraints);
+    weighted.constraints = int(constraints);
+    int kept = 0;
+    for (std::size_t b = 0; b < module.size();) {
+      const auto end = std::size_t(std::upper_bound(module.begin(), module.end(), module[b]) - module.begin());
+      const std::size_t size = (end - b) / std::size_t(parts);
+      if (size * std::size_t(parts) != end - b) throw std::logic_error("copies that are not alike");
+      for (std::size_t n = b; n < end; ++n) of_block[n] = {int((n - b) / size), kept + int((n - b) % size)};
+      const auto cost = blocks.weighted().cost.begin();
+      weighted.cost.insert(weighted.cost.end(), cost + std::ptrdiff_t(b * constraints),
+                           cost + std::ptrdiff_t((b + size) * constraints));
+      kept += int(size), b = end;
+    }
+    for (const BlockGraph::Edge& edge : blocks.weighted().edges)
+      if (of_block[std::size_t(edge.a)].first == 0 && of_block[std::size_t(edge.b)].first == 0)
+        weighted.edges.push_back({of_block[std::size_t(edge.a)].second, of_block[std::size_t(edge.b)].second, edge.weight});
+  }
+  BlockGraph weighted;
+  std::vector<std::pair<int, int>> of_block;  ///< part it is in; which block of the first it is like
+};
+
 }  // namespace
 
-Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank) {
+Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank, int alike) {
   for (const NodeRecord& node : graph.nodes)
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
       throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be cut for others");
   const Blocks blocks(graph, run);
+  const FirstPart part(blocks, alike);
   Recut out;
   out.modules = blocks.modules(), out.blocks = blocks.count();
-  std::vector<int> rank_of_block(std::size_t(blocks.count()), 0);
-  if (ranks > 1 && blocks.count() > 0) {
-    Partition partition = partition_blocks(blocks.weighted(), {.ranks = ranks});
+  std::vector<int> rank_of_block(std::size_t(part.weighted.blocks()), 0);
+  if (ranks > alike && !rank_of_block.empty()) {
+    Partition partition = partition_blocks(part.weighted, {.ranks = ranks / alike});
     rank_of_block = std::move(partition.rank_of_block), out.quality = std::move(partition.quality);
   }
   std::vector<int> owner(graph.data.size(), -1);
   for (std::size_t d = 0; d < owner.size(); ++d)
-    if (const int block = blocks.of_datum()[d]; block != no_block) owner[d] = rank_of_block[std::size_t(block)];
+    if (const int block = blocks.of_datum()[d]; block != no_block) {
+      const auto [nth, in_first] = part.of_block[std::size_t(block)];
+      owner[d] = nth * (ranks / alike) + rank_of_block[std::size_t(in_first)];
+    }
   Cutter cutter(graph, run, owner, ranks, first_rank);
   out.repeated = cutter.repeated_ns();
   double all = 0.0;

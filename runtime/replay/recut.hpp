@@ -21,9 +21,10 @@ struct Recut {
   double repeated = 0.0;  ///< work done on more than one rank, of all that was recorded
 };
 
-/// `first_rank`: number of the first rank, by which messages name them. Throws std::invalid_argument for a graph with messages,
-/// which was recorded on several ranks.
-Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank = 0);
+/// `first_rank`: number of the first rank, by which messages name them. `alike`: so many equal parts (copies.hpp), each cut in
+/// the same way for its share of the ranks. Throws std::invalid_argument for a graph with messages, which was recorded on several
+/// ranks.
+Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank = 0, int alike = 1);
 
 /// What of a graph belongs to modules for which `wanted` answers true, without what lies between them and others.
 template <class Wanted>

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <queue>
 #include <random>
@@ -44,11 +45,51 @@ struct Thread {
   }
 };
 
-/// What a token brings: when the longest chain behind it ends.
-using Path = double;
+/// What a token brings: when the longest chain behind it ends, and the last step of that chain.
+struct Path {
+  double s = 0.0;
+  std::uint32_t last = no_node;
+};
+const Path& longer(const Path& a, const Path& b) { return a.s < b.s ? b : a; }
+
+/// The steps of all chains, each of them after another one; families of labels by number.
+class Chains {
+ public:
+  Path after(const Path& before, double s, std::uint32_t family) {
+    if (s <= 0.0) return before;
+    steps_.push_back({before.last, family, s});
+    return {before.s + s, std::uint32_t(steps_.size() - 1)};
+  }
+  std::uint32_t family(const std::string& label) {
+    const auto [found, is_new] = number_.emplace(label, std::uint32_t(labels_.size()));
+    if (is_new) labels_.push_back(label);
+    return found->second;
+  }
+  /// By family, longest first.
+  std::vector<Link> links(const Path& path) const {
+    std::vector<Link> all(labels_.size());
+    for (std::uint32_t at = path.last; at != no_node; at = steps_[at].before) {
+      Link& link = all[steps_[at].family];
+      link.s += steps_[at].s, ++link.executions;
+    }
+    for (std::size_t n = 0; n < all.size(); ++n) all[n].label = labels_[n];
+    std::erase_if(all, [](const Link& link) { return link.executions == 0; });
+    std::ranges::stable_sort(all, std::greater(), &Link::s);
+    return all;
+  }
+
+ private:
+  struct Step {
+    std::uint32_t before, family;
+    double s;
+  };
+  std::vector<Step> steps_;
+  std::vector<std::string> labels_;
+  std::map<std::string, std::uint32_t> number_;
+};
 
 struct Rank {
-  Rank(const RankRun& from, int ranks_in_group, int threads, double factor_)
+  Rank(const RankRun& from, int ranks_in_group, int threads, double factor_, Chains& chains)
       : of(from), graph(rebuilt(from.graph, ranks_in_group)), program(graph), factor(factor_), threads_of(std::size_t(threads)) {
     const std::size_t nodes = from.graph.nodes.size();
     measure(program, from.run);
@@ -63,6 +104,7 @@ struct Rank {
     path.resize(program.slots.size());
     begin_path.resize(program.slots.size());
     asked.resize(nodes);
+    for (const NodeRecord& node : from.graph.nodes) family.push_back(chains.family(family_of(node.label)));
   }
   const RankRun& of;
   Graph graph;
@@ -71,11 +113,12 @@ struct Rank {
   std::vector<Thread> threads_of;
   std::vector<std::array<Path, 2>> path;  ///< by slot and parity of the step
   std::vector<Path> begin_path;
+  std::vector<std::uint32_t> family;                   ///< by node
   std::vector<std::uint32_t> asked;                    ///< by until: executions so far
   std::deque<std::pair<std::uint32_t, Path>> noticed;  ///< messages that are there, no thread free to see it
   int current = 0;                                     ///< thread on whose behalf tokens are given
   double end_s = -1.0;
-  Path end_path = 0.0;
+  Path end_path = {};
   std::map<std::string, std::uint32_t, std::less<>> reduced;      ///< by module
   std::map<std::string, std::uint32_t, std::less<>> ready_calls;  ///< by module
   std::uint32_t calls = 0;
@@ -89,15 +132,15 @@ class Simulation {
       : cluster_(cluster), free_from_(std::size_t(cluster.nodes), 0.0) {
     for (const RankRun& run : runs) ++group_size_[run.group];
     for (std::size_t r = 0; r < runs.size(); ++r)
-      ranks_.push_back(
-          std::make_unique<Rank>(runs[r], group_size_[runs[r].group], cluster.threads, speed_factor(cluster, int(r))));
+      ranks_.push_back(std::make_unique<Rank>(runs[r], group_size_[runs[r].group], cluster.threads,
+                                              speed_factor(cluster, number_of(runs, int(r))), chains_));
   }
 
   Simulated run() {
     for (int r = 0; r < int(ranks_.size()); ++r) {
-      enter(r, 0, ranks_[std::size_t(r)]->of.run.replays, 0.0);
+      enter(r, 0, ranks_[std::size_t(r)]->of.run.replays, {});
       settle(r);
-      if (cluster_.threads > 1) add(steal_after_s, What::steal, r, 0, no_node, 0.0);
+      if (cluster_.threads > 1) add(steal_after_s, What::steal, r, 0, no_node, {});
     }
     while (!events_.empty()) {
       const Event event = events_.top();
@@ -141,9 +184,9 @@ class Simulation {
     Rank& rank = *ranks_[std::size_t(r)];
     Slot& s = rank.program.slots[slot];
     Path& longest = rank.path[slot][step & 1];
-    longest = std::max(longest, path);
+    longest = longer(longest, path);
     if (s.need != 1 && s.waiting[step & 1].fetch_sub(1, std::memory_order_relaxed) != 1) return;
-    const Path begin = std::exchange(longest, 0.0);
+    const Path begin = std::exchange(longest, Path{});
     if (s.action == Action::join) {
       s.waiting[step & 1].store(s.need, std::memory_order_relaxed);
       if (s.join != no_node) return token(r, s.join, step, begin);
@@ -309,7 +352,7 @@ class Simulation {
       meet({rank.of.group, "", rank.calls++}, r, t, slot, before, cost, 0.0);
       return;
     }
-    occupy(r, t, slot, now_, cost, before + cost);
+    occupy(r, t, slot, now_, cost, chains_.after(before, cost, rank.family[slot]));
   }
 
   /// The thread is in the node's work for so long.
@@ -336,7 +379,7 @@ class Simulation {
       rank.making = false;
       next_call(rank);
     }
-    if (rank.threads_of.size() > 1) add(now_ + steal_after_s, What::steal, r, t, no_node, 0.0);
+    if (rank.threads_of.size() > 1) add(now_ + steal_after_s, What::steal, r, t, no_node, {});
   }
 
   /// Messages that are there, as soon as a thread is between tasks.
@@ -368,9 +411,12 @@ class Simulation {
 
   // ---- network
 
-  const Wire& wire(int from, int to) const {
-    return cluster_.node_of(from) == cluster_.node_of(to) ? cluster_.within : cluster_.between;
+  /// Of the cluster.
+  int node_of(int r) const {
+    const int number = ranks_[std::size_t(r)]->of.number;
+    return cluster_.node_of(number < 0 ? r : number);
   }
+  const Wire& wire(int from, int to) const { return node_of(from) == node_of(to) ? cluster_.within : cluster_.between; }
 
   void post(int r, std::uint32_t slot, Path path) {
     Rank& rank = *ranks_[std::size_t(r)];
@@ -384,7 +430,7 @@ class Simulation {
       const std::string ready = std::string(module_of(node.label)) + " is ready";
       if (recorded_s(rank, slot, rank.program.slots[slot].step) == 0.0) return complete(r, slot, path);  // was not needed
       // Waits for the last rank, then for the announcement.
-      const double announcement_s = all_to_all_s(cluster_, group_size_.at(rank.of.group), 0.0);
+      const double announcement_s = all_to_all_s(cluster_, ranks_in_all(cluster_, group_size_.at(rank.of.group)), 0.0);
       meet({rank.of.group, ready, rank.ready_calls[ready]++}, r, -1, slot, path, announcement_s, 0.0);
       return;
     }
@@ -395,12 +441,13 @@ class Simulation {
       const double duration = double(node.bytes) / line.bytes_per_s;
       double leaves = now_;
       if (&line == &cluster_.between) {  // one wire of the node carries one message after the other
-        double& free = free_from_[std::size_t(cluster_.node_of(r))];
+        double& free = free_from_[std::size_t(node_of(r))];
         leaves = std::max(leaves, free);
         free = leaves + duration;
       }
       out_.bytes += double(node.bytes), ++out_.messages;
-      ends.sent.push_back({leaves + line.latency_s + duration, path + line.latency_s + duration});
+      ends.sent.push_back(
+          {leaves + line.latency_s + duration, chains_.after(path, line.latency_s + duration, rank.family[slot])});
       add(now_, What::message_ends, r, -1, slot, path);
     } else {
       ends.awaited.push_back({slot, path});
@@ -409,7 +456,7 @@ class Simulation {
       const auto [arrives, sent_path] = ends.sent.front();
       const auto [receive, awaited_path] = ends.awaited.front();
       ends.sent.pop_front(), ends.awaited.pop_front();
-      add(std::max(arrives, now_), What::message_ends, sends ? node.peer : r, -1, receive, std::max(sent_path, awaited_path));
+      add(std::max(arrives, now_), What::message_ends, sends ? node.peer : r, -1, receive, longer(sent_path, awaited_path));
     }
   }
 
@@ -418,28 +465,31 @@ class Simulation {
             double bytes) {
     Meeting& meeting = meetings_[key];
     meeting.come.push_back({r, t, slot});
-    meeting.path = std::max(meeting.path, path);
+    meeting.path = longer(meeting.path, path);
     // Recorded on several ranks, the call contains the wait for the others: the last to come waits least.
     meeting.cost = meeting.come.size() == 1 ? cost : std::min(meeting.cost, cost);
     const int size = group_size_.at(std::get<0>(key));
     if (int(meeting.come.size()) < size) return false;
-    const double steps_s = all_to_all_s(cluster_, size, bytes);
+    const double s = meeting.cost + all_to_all_s(cluster_, ranks_in_all(cluster_, size), bytes);
+    const Path after = chains_.after(meeting.path, s, ranks_[std::size_t(r)]->family[slot]);
     for (const auto& [rank, thread, at] : meeting.come)
       if (thread >= 0)
-        occupy(rank, thread, at, now_, meeting.cost + steps_s, meeting.path + meeting.cost + steps_s);
+        occupy(rank, thread, at, now_, s, after);
       else
-        add(now_ + meeting.cost + steps_s, What::message_ends, rank, -1, at, meeting.path + meeting.cost + steps_s);
+        add(now_ + s, What::message_ends, rank, -1, at, after);
     meetings_.erase(key);
     return true;
   }
 
   Simulated result() {
+    Path longest;
     for (std::size_t r = 0; r < ranks_.size(); ++r) {
       if (ranks_[r]->end_s < 0.0)
         throw std::runtime_error("the recorded graphs do not end: rank " + std::to_string(r) + " waits for ever");
       out_.wall_s = std::max(out_.wall_s, ranks_[r]->end_s);
-      out_.critical_path_s = std::max(out_.critical_path_s, ranks_[r]->end_path);
+      longest = longer(longest, ranks_[r]->end_path);
     }
+    out_.critical_path_s = longest.s, out_.critical_path = chains_.links(longest);
     out_.waiting_s = out_.wall_s * double(ranks_.size()) * cluster_.threads - out_.busy_s - out_.overhead_s;
     return std::move(out_);
   }
@@ -462,11 +512,12 @@ class Simulation {
       std::uint32_t slot;
     };
     std::vector<Come> come;
-    Path path = 0.0;
+    Path path;
     double cost = 0.0;
   };
 
   const Cluster& cluster_;
+  Chains chains_;
   std::vector<std::unique_ptr<Rank>> ranks_;
   std::map<int, int> group_size_;
   std::priority_queue<Event> events_;
@@ -487,9 +538,24 @@ Simulated& Simulated::operator+=(const Simulated& next) {
   }
   wall_s += next.wall_s, busy_s += next.busy_s, overhead_s += next.overhead_s, waiting_s += next.waiting_s;
   critical_path_s += next.critical_path_s;
+  for (const Link& link : next.critical_path) {
+    const auto known = std::ranges::find(critical_path, link.label, &Link::label);
+    if (known == critical_path.end())
+      critical_path.push_back(link);
+    else
+      known->s += link.s, known->executions += link.executions;
+  }
+  std::ranges::stable_sort(critical_path, std::greater(), &Link::s);
   bytes += next.bytes, messages += next.messages, reductions += next.reductions, tasks += next.tasks;
   for (const auto& [module, s] : next.busy_of) busy_of[module] += s;
   return *this;
+}
+
+int ranks_in_all(const Cluster& cluster, int ranks) { return int(std::lround(cluster.times * ranks)); }
+
+int number_of(std::span<const RankRun> ranks, int rank) {
+  const int number = ranks[std::size_t(rank)].number;
+  return number < 0 ? rank : number;
 }
 
 double speed_factor(const Cluster& cluster, int rank) {

@@ -24,6 +24,8 @@ struct Cluster {
   Wire within{0.5e-6, 6.0e9};             ///< ranks of one node
   double skew = 0.0;                      ///< standard deviation of the ranks' speeds
   double task_overhead_s = 0.0;           ///< of the executor, per task
+  int copies = 1;                         ///< of the recorded work, side by side (copies.hpp)
+  double times = 1.0;                     ///< ranks of all over those simulated, which stand for the rest in reductions
   int node_of(int rank) const { return int(long(rank) * nodes / ranks); }
 };
 
@@ -32,8 +34,16 @@ struct RankRun {
   GraphRecord graph;
   RunRecord run;
   std::vector<std::uint32_t> origin =
-      {};         ///< by node: that of the graph it was cut from, of a message what it is for; none: its own
-  int group = 0;  ///< ranks that share reductions and collective calls; messages name ranks of all groups
+      {};           ///< by node: that of the graph it was cut from, of a message what it is for; none: its own
+  int group = 0;    ///< ranks that share reductions and collective calls; messages name ranks of all groups
+  int number = -1;  ///< on the cluster, which says its node and speed; -1: as it stands in the list that is simulated
+};
+
+/// Of a chain: what all executions of a family of labels took, or all messages and reductions of a module.
+struct Link {
+  std::string label;
+  double s = 0.0;
+  long executions = 0;
 };
 
 /// A piece of a thread's time.
@@ -47,6 +57,7 @@ struct Simulated {
   double wall_s = 0.0;
   double busy_s = 0.0, overhead_s = 0.0, waiting_s = 0.0;  ///< core-seconds; together wall x ranks x threads
   double critical_path_s = 0.0;                            ///< longest chain of tasks and messages by data alone
+  std::vector<Link> critical_path = {};                    ///< what it is made of, most first
   double bytes = 0.0;
   long messages = 0, reductions = 0, tasks = 0;
   std::map<std::string, double> busy_of;         ///< [core-s] by module
@@ -65,6 +76,12 @@ Simulated simulate_bulk_synchronous(std::span<const RankRun> ranks, const Cluste
 
 /// A reduction of so many bytes, by doubling: first among the ranks of a node, then among nodes.
 double all_to_all_s(const Cluster& cluster, int ranks, double bytes);
+
+/// Of the whole computer, where `ranks` of a group are simulated.
+int ranks_in_all(const Cluster& cluster, int ranks);
+
+/// On the cluster, of the rank that stands there in the list.
+int number_of(std::span<const RankRun> ranks, int rank);
 
 /// Factor on the times of a rank's tasks, at least 0.2; the same for a rank in every simulation.
 double speed_factor(const Cluster& cluster, int rank);

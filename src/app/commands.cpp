@@ -112,6 +112,17 @@ void add_replay(CLI::App& cli, Command& chosen) {
       ->check(CLI::Range(0.0, 1e9));
   command->add_option("--skew", arguments->skew, "Standard deviation of the ranks' speeds, 0 to 0.5 (default: 0)")
       ->check(CLI::Range(0.0, 0.5));
+  command
+      ->add_option("--copies", arguments->copies,
+                   "The recorded work so many times side by side, bordering each other, on all ranks together (default: 1)")
+      ->check(CLI::Range(1, 1 << 16));
+  command
+      ->add_option("--weak", arguments->weak,
+                   "Weak scaling: so many times the copies, ranks and nodes, one or more numbers beside 1: 4,64,1024")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1 << 16));
+  command->add_flag("--exact", arguments->exact,
+                    "Simulate every copy: without it four equal parts of the computer, the slowest among them, stand for all");
   command->add_flag("--typical", arguments->typical,
                     "One window in which every execution takes the median of the windows: for recordings from a busy machine");
   command->add_option("--json", arguments->json, "Also write every figure to this file")->check(ends_in({".json"}));
@@ -122,6 +133,8 @@ void add_replay(CLI::App& cli, Command& chosen) {
       "  spindrift run scene.toml --out run1 --until 1 --record-graph window.jsonl\n"
       "  spindrift replay window.jsonl --threads 1,2,4\n"
       "  spindrift replay window.jsonl --ranks 64,128,256 --nodes 16 --threads 8 --network 1.5,12 --skew 0.02\n"
+      "  spindrift replay window.jsonl --ranks 8 --threads 8 --weak 4,64,1024 --skew 0.02\n"
+      "  spindrift replay window.jsonl --copies 32 --ranks 128 --nodes 16 --threads 8\n"
       "  spindrift replay window.jsonl --ranks 2 --json window.json --plot window.png");
   command->callback([arguments, &chosen] { chosen = [arguments](const auto& world) { return replay(*arguments, world); }; });
 }

@@ -89,6 +89,9 @@ struct ReplayArguments {
   int nodes = 1;
   std::vector<double> network;  ///< us, GB/s; us, GB/s within a node
   double skew = 0.0;
+  int copies = 1;          ///< of the recorded work
+  std::vector<int> weak;   ///< so many times the copies, ranks and nodes; empty: as they are given
+  bool exact = false;      ///< every copy is simulated
   bool typical = false;    ///< the median of the windows, execution by execution
   std::string json, plot;  ///< files; empty: none
 };

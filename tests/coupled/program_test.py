@@ -102,6 +102,35 @@ class Program(Folder):
         self.assertGreater(found[2, 1, "shared"]["messages"], 0)
         self.assertEqual(found[1, 2, "shared"]["messages"], 0)
 
+    def test_copies_of_a_recorded_window_are_replayed(self):
+        recording = self.recorded()
+        out = self.out.parent / "weak.json"
+        def replayed(*words):
+            done = spindrift("replay", recording, "--threads", 2, "--json", out, *words)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            found = {(p["placement"], p["copies"]): p for p in json.loads(out.read_text())["predictions"]}
+            return found, done.stdout
+        some, said = replayed("--weak", "8,256", "--skew", 0.02)
+        self.assertIn("weak %", said)
+        self.assertIn("longest chain, shared on 256 x 2", said)
+        self.assertIn("sea/pairs", said)
+        every, _ = replayed("--weak", "8", "--skew", 0.02, "--exact")
+        for placement in {name for name, _ in some}:
+            one, eight, many = (some[placement, copies] for copies in (1, 8, 256))
+            self.assertEqual((one["weak_efficiency"], one["simulated_copies"]), (1.0, 1))
+            self.assertEqual((eight["nodes"], eight["ranks"], eight["simulated_copies"]), (8, 8, 4))
+            self.assertEqual(every[placement, 8]["simulated_copies"], 8)
+            self.assertAlmostEqual(eight["wall_s"] / every[placement, 8]["wall_s"], 1.0, delta=0.1)
+            self.assertAlmostEqual(many["work_s"], 256 * one["work_s"], delta=1e-6 * many["work_s"])
+            self.assertAlmostEqual(many["weak_efficiency"], one["wall_s"] / many["wall_s"], delta=1e-9)
+            self.assertLess(many["weak_efficiency"], 1.0)
+            self.assertGreater(eight["messages"], 0)
+            if placement != "bulk-synchronous":
+                self.assertAlmostEqual(sum(link["s"] for link in many["critical_path"]), many["critical_path_s"], delta=1e-9)
+        wide, _ = replayed("--copies", 4, "--ranks", 2)
+        self.assertAlmostEqual(wide["shared", 4]["work_s"], 4 * some["shared", 1]["work_s"], delta=1e-6)
+        self.assertGreater(wide["shared", 4]["wall_s"], 1.5 * some["shared", 1]["wall_s"])
+
     def test_a_recording_of_two_ranks_is_replayed_on_two(self):
         recording = self.recorded(ranks=2)
         done = spindrift("replay", recording, "--ranks", 2)
@@ -110,6 +139,9 @@ class Program(Folder):
         done = spindrift("replay", recording, "--ranks", 3)
         self.assertEqual(done.returncode, 2)
         self.assertIn("recorded on 2 ranks", done.stdout + done.stderr)
+        done = spindrift("replay", recording, "--ranks", 2, "--copies", 2)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("copies are made of a recording of one rank", done.stdout + done.stderr)
 
     def check_trace(self, events):
         """What Perfetto needs: slices of a row apart or one in the other, arrows from slice to slice, a name for every row."""

@@ -79,6 +79,25 @@ TEST_CASE("placements of two sides: in turns, shared, split and in bulk", "[repl
   }
 }
 
+TEST_CASE("copies without anything between them take the time of one, however both sides are placed", "[replay][fast]") {
+  for (const bool one_graph : {false, true}) {
+    const Recording recording = two_sides(one_graph);
+    for (const Placement placement : placements) {
+      const Prediction one = predict(recording, ideal(4, 1), placement, side_of);
+      Cluster many = ideal(64, 1);
+      many.nodes = many.copies = 16;
+      const Prediction all = predict(recording, many, placement, side_of);
+      INFO(name_of(placement));
+      CHECK(all.wall_s == Approx(one.wall_s).margin(2 * us));
+      CHECK(all.work_s == Approx(16 * one.work_s));
+      CHECK(all.tasks.busy_s == Approx(16 * one.tasks.busy_s));
+      CHECK(all.tasks.tasks == 16 * one.tasks.tasks);
+      CHECK(all.second_side_ranks == 16 * one.second_side_ranks);
+      CHECK(all.simulated_copies == simulated_units);
+    }
+  }
+}
+
 TEST_CASE("what a recording can be replayed as", "[replay][fast]") {
   const Recording two = two_sides(false);
   CHECK(possible(two, 1, side_of) == std::vector{Placement::in_turns, Placement::shared, Placement::bulk_synchronous});

@@ -51,6 +51,10 @@ TEST_CASE("a chain takes the sum of its tasks on any number of threads", "[repla
     const Simulated s = simulate({&chain, 1}, ideal(1, threads));
     CHECK(s.wall_s == Approx(210 * us));
     CHECK(s.critical_path_s == Approx(210 * us));
+    REQUIRE(s.critical_path.size() == 2);
+    CHECK(s.critical_path[0].label == "a/two");
+    CHECK(s.critical_path[0].s == Approx(140 * us));
+    CHECK(s.critical_path[1].executions == 7);
     CHECK(s.busy_s == Approx(210 * us));
     CHECK(s.waiting_s == Approx((threads - 1) * 210 * us).margin(1e-15));
     CHECK(s.tasks == 14);
