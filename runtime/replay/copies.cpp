@@ -58,7 +58,7 @@ class Copier {
     return block == no_block ? -1 : half_of_block_[std::size_t(block)];
   }
 
-  /// What is written stands all round: no half of the places is without any of it.
+  /// What is written stands all round, no half of the places is without any of it: work on all of the copy, which has no border.
   bool everywhere(const NodeRecord& node) const {
     std::vector<float> places;
     for (const UseRecord& use : node.uses)
@@ -73,16 +73,16 @@ class Copier {
     const NodeRecord& node = graph_.nodes[n];
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
       throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be copied");
-    if (!blocks_.in_blocks(node) || everywhere(node)) return of_all(n);
+    if (!blocks_.in_blocks(node)) return of_all(n);
+    const bool borders = count_ > 1 && !everywhere(node);
     bool writes[2] = {};
     for (const UseRecord& use : node.uses)
       if (writes_to(use) && half(use.datum) >= 0) writes[half(use.datum)] = true;
     for (int k = 0; k < count_; ++k) {
       add(n, [&](const UseRecord& use) { return datum(use.datum, k); });
-      if (count_ == 1) continue;
-      if (!(writes[0] && writes[1])) read_across(node, k, writes[0] ? 0 : 1);
+      if (borders && !(writes[0] && writes[1])) read_across(node, k, writes[0] ? 0 : 1);
     }
-    if (count_ > 1 && writes[0] && writes[1]) across_.push_back(n);
+    if (borders && writes[0] && writes[1]) across_.push_back(n);
   }
 
   bool alike(std::uint32_t a, std::uint32_t b) const {

@@ -191,9 +191,9 @@ TEST_CASE("pairs across a border are one more on each side of it, what is of blo
     }
     return all;
   };
-  auto three = found(copies(one.graph, one.run, 3, 1.5));
+  auto three = found(copies(one.graph, one.run, 3));
   CHECK(three["sea/move/0"] == std::pair(3L, std::int64_t(300'000)));
-  CHECK(three["sea/sort"] == std::pair(1L, std::int64_t(1'500)));
+  CHECK(three["sea/sort"] == std::pair(3L, std::int64_t(3'000)));
   long count = 0;
   for (std::size_t n = 0; n + 1 < tiles; ++n) count += three[label("pairs", n)].first;
   CHECK(count == 3 * (long(tiles) - 1) + 3);
