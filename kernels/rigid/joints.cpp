@@ -39,9 +39,10 @@ void append_joint(JointType type, int i, int j, const JointFrame& on_i, const Jo
     c.driver = driver;
     constraints.push_back(c);
   };
-  if (!slides(type)) constraints.push_back(base);
+  const bool planar = type == JointType::planar;
+  if (!slides(type) && !planar) constraints.push_back(base);
   if (type == JointType::universal) perpendicular(on_i.axis, on_j.second);
-  if (type == JointType::revolute || type == JointType::fixed || slides(type)) {
+  if (type == JointType::revolute || type == JointType::fixed || slides(type) || planar) {
     perpendicular(on_i.second, on_j.axis);
     perpendicular(on_i.third, on_j.axis);
   }
@@ -49,6 +50,7 @@ void append_joint(JointType type, int i, int j, const JointFrame& on_i, const Jo
     along(on_i.second, -1);
     along(on_i.third, -1);
   }
+  if (planar) along(on_i.axis, -1);
   if (type == JointType::fixed || type == JointType::translational) perpendicular(on_i.second, on_j.third);
   if (rotation_driver >= 0) {
     Constraint c = base;

@@ -1,6 +1,7 @@
 // Joints as lists of primitive constraints, and the angle a joint has turned.
-// Rows: spherical 3, universal 4, cylindrical 4, revolute 5, translational 5, fixed 6; a driver adds one (Nikravesh 1988, chapter
-// 7). Used by src/bodies/system.cpp; tested in tests/kernels/rigid/joints_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Rows: spherical 3, planar 3, universal 4, cylindrical 4, revolute 5, translational 5, fixed 6; a driver adds one (Nikravesh
+// 1988, chapter 7). Used by src/bodies/system.cpp; tested in tests/kernels/rigid/joints_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +16,9 @@
 
 namespace spindrift {
 
-enum class JointType { fixed, revolute, spherical, universal, translational, cylindrical };
-inline constexpr std::array<std::string_view, 6> joint_type_names{"fixed",     "revolute",      "spherical",
-                                                                  "universal", "translational", "cylindrical"};
+enum class JointType { fixed, revolute, spherical, universal, translational, cylindrical, planar };
+inline constexpr std::array<std::string_view, 7> joint_type_names{"fixed",         "revolute",    "spherical", "universal",
+                                                                  "translational", "cylindrical", "planar"};
 inline constexpr std::optional<JointType> joint_type_named(std::string_view name) {
   for (std::size_t i = 0; i < joint_type_names.size(); ++i)
     if (joint_type_names[i] == name) return JointType(i);

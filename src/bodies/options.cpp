@@ -267,7 +267,8 @@ const Section<JointOptions>& joint_section() {
                {"spherical", JointType::spherical, "turns about the point"},
                {"universal", JointType::universal, "turns about the axis of the first body and the second axis of the second"},
                {"translational", JointType::translational, "slides along the axis"},
-               {"cylindrical", JointType::cylindrical, "slides along the axis and turns about it"}},
+               {"cylindrical", JointType::cylindrical, "slides along the axis and turns about it"},
+               {"planar", JointType::planar, "slides across the axis and turns about it"}},
               "Kind of the joint.")
           .texts("bodies", &JointOptions::bodies, "First and second body; \"earth\" is the fixed frame.")
           .required()
@@ -275,7 +276,7 @@ const Section<JointOptions>& joint_section() {
           .vector("point_m", &JointOptions::point_m, "m", "Point of the joint, initial earth coordinates.")
           .required()
           .vector("axis", &JointOptions::axis, "-", "Direction of the axis; its length does not matter.")
-          .only_if("type", {"revolute", "universal", "translational", "cylindrical"})
+          .only_if("type", {"revolute", "universal", "translational", "cylindrical", "planar"})
           .required()
           .vector("second_axis", &JointOptions::second_axis, "-", "Axis of the cross on the second body.")
           .only_if("type", {"universal"})

@@ -45,7 +45,7 @@ std::vector<Constraint> constraints_of(JointType type) {
 
 TEST_CASE("constraint Jacobians, velocity and acceleration sides match differences", "[rigid][fast]") {
   const auto type = GENERATE(JointType::fixed, JointType::revolute, JointType::spherical, JointType::universal,
-                             JointType::translational, JointType::cylindrical);
+                             JointType::translational, JointType::cylindrical, JointType::planar);
   const int grounded = GENERATE(0, 1, 2);  // none, first, second body is the earth
   const Path& i = grounded == 1 ? still : first;
   const Path& j = grounded == 2 ? still : second;
@@ -104,6 +104,7 @@ TEST_CASE("a joint takes away the freedoms its name says", "[rigid][fast]") {
   CHECK(count(JointType::cylindrical) == 4);
   CHECK(count(JointType::universal) == 4);
   CHECK(count(JointType::spherical) == 3);
+  CHECK(count(JointType::planar) == 3);
 }
 
 TEST_CASE("a joint's angle continues over full turns", "[rigid][fast]") {

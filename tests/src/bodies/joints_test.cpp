@@ -25,7 +25,8 @@ TEST_CASE("each joint leaves its freedoms, between bodies and to the earth", "[b
                                                                 {JointType::spherical, 3},
                                                                 {JointType::universal, 2},
                                                                 {JointType::translational, 1},
-                                                                {JointType::cylindrical, 2}}));
+                                                                {JointType::cylindrical, 2},
+                                                                {JointType::planar, 3}}));
   Joint to_earth = joint("a", type, earth, 0, {0.5, 0.1, 0}, Vector3d(1, 2, 3)),
         between = joint("b", type, 0, 1, {1, 1, 1}, Vector3d(-1, 0, 2));
   to_earth.second_axis = Vector3d(3, 0, -1);
