@@ -27,6 +27,7 @@
 #include "src/app/leave_out.hpp"
 #include "src/app/rotor_start.hpp"
 #include "src/app/scene_file.hpp"
+#include "src/app/smaller_choices.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
@@ -525,6 +526,8 @@ void print_omissions(const CheckArguments& arguments) {
       fmt::print("  {:<30}saves nothing that shows (+- {:.1g} %), by", o.name, percent);
     for (const std::string& text : o.overrides) fmt::print("{}", as_option(text));
     fmt::print("\n");
+    if (o.in_plane && std::ranges::any_of(columns, is_out_of_plane))
+      fmt::print("  {:<30}bodies stay in the plane: sway, roll and yaw are lost\n", "");
     for (std::size_t c = 0; c < columns.size(); ++c)
       fmt::print("  {:<30}{}: mean {}, deviation {}\n", "", columns[c], changed_by(o.effects[c].mean),
                  changed_by(o.effects[c].deviation));

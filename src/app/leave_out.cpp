@@ -364,8 +364,12 @@ Trial try_omissions(const std::string& path, const Overrides& overrides, const s
   Trial trial{.end_s = scenario.time.end_s, .budget_s = budget_s};
   trial.steady = scenario.has_flow() && scenario.aero.flow->time == "steady";
   for (SmallerChoice& choice : smaller_choices(scenario, document))
-    trial.omissions.push_back(
-        {.name = std::move(choice.name), .overrides = std::move(choice.overrides), .effects = {}, .saving = {}, .refused = {}});
+    trial.omissions.push_back({.name = std::move(choice.name),
+                               .overrides = std::move(choice.overrides),
+                               .effects = {},
+                               .saving = {},
+                               .refused = {},
+                               .in_plane = choice.in_plane});
   if (fluids) {
     set_length_of_fluids(trial, ready ? forecast(*ready->floating, ready->start) : forecast_of_air(scenario), columns);
     if (!trial.untried.empty()) return trial;

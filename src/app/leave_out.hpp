@@ -28,7 +28,8 @@ struct Omission {
   std::vector<std::string> overrides;  ///< what makes it: "time.step_s=0.1"
   std::vector<Effect> effects;         ///< by column asked for
   Saving saving;
-  std::string refused;  ///< not empty: why it cannot be done
+  std::string refused;    ///< not empty: why it cannot be done
+  bool in_plane = false;  ///< as SmallerChoice has it
 };
 
 struct Trial {

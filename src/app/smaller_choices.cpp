@@ -12,6 +12,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/bodies/extent.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/symmetry.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/sea/wave_model.hpp"
 
@@ -30,6 +31,7 @@ using coupling::Scenario;
 struct Choice {
   const char* name;
   std::function<Overrides(const Scenario& own, const scene::Document& document)> overrides;
+  bool in_plane = false;
 };
 
 /// Those of these keys that the scene gives, as one override that takes them away; nothing where it gives none.
@@ -149,6 +151,59 @@ bool same_across(const Scenario& s) {
          std::ranges::all_of(o.damping_zones, [](const sea::DampingZoneOptions& zone) { return zone.axis == "x"; });
 }
 
+/// Whether things have their images beyond the plane y = `plane`.
+class Mirror {
+ public:
+  explicit Mirror(double plane) : plane_(plane) {}
+  bool are_images(const sea::BoxOptions& a, const sea::BoxOptions& b) const {
+    const Eigen::Vector3d low = place({a.low_m.x(), a.high_m.y(), a.low_m.z()}),
+                          high = place({a.high_m.x(), a.low_m.y(), a.high_m.z()});
+    return same(low, b.low_m) && same(high, b.high_m);
+  }
+  bool are_images(const scene::Named<moorings::LineOptions>& a, const scene::Named<moorings::LineOptions>& b) const {
+    const moorings::LineOptions &p = a.options, &q = b.options;
+    return p.model == q.model && p.body == q.body && p.anchor_body == q.anchor_body && p.rest_length_m == q.rest_length_m &&
+           p.fairlead_m && p.anchor_m && q.fairlead_m && q.anchor_m && same(place(*p.fairlead_m), *q.fairlead_m) &&
+           same(place(*p.anchor_m), *q.anchor_m);
+  }
+  bool are_images(const bodies::ForceOptions& a, const bodies::ForceOptions& b) const {
+    return same(place(a.point_m), b.point_m) && same(direction(a.force_N), b.force_N) &&
+           same(-direction(a.moment_N_m), b.moment_N_m);
+  }
+  template <class Things>
+  bool keeps(const Things& things) const {
+    return std::ranges::all_of(things, [&](const auto& one) {
+      return std::ranges::any_of(things, [&](const auto& other) { return are_images(one, other); });
+    });
+  }
+
+ private:
+  static Eigen::Vector3d direction(const Eigen::Vector3d& v) { return {v.x(), -v.y(), v.z()}; }
+  Eigen::Vector3d place(const Eigen::Vector3d& x) const { return {x.x(), 2.0 * plane_ - x.y(), x.z()}; }
+  static bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() <= 1e-6 * (1.0 + b.norm()); }
+  double plane_;
+};
+
+/// One half of a tank that is symmetrical about the middle between its long sides, with all that is in it; what is read stands in
+/// that half.
+Overrides symmetric_half(const Scenario& s) {
+  const sea::SeaOptions& o = s.sea;
+  const sea::TankOptions& tank = *o.tank;
+  const double plane = 0.5 * (tank.y_m[0] + tank.y_m[1]);
+  const Mirror mirror(plane);
+  const bool divides = !o.particles->planar() && tank.sides_y == "wall" && tank.meshes.empty() &&
+                       (!o.initial || o.initial->state != "file") && mirror.keeps(o.water) && mirror.keeps(o.obstacles) &&
+                       std::ranges::all_of(o.damping_zones, [](const auto& zone) { return zone.axis == "x"; });
+  const bool loaded_alike = mirror.keeps(s.moorings) &&
+                            std::ranges::all_of(s.bodies, [&](const auto& body) { return mirror.keeps(body.options.forces); });
+  const bool read_there =
+      std::ranges::all_of(o.gauges, [&](const auto& gauge) { return gauge.point_m[1] >= plane; }) &&
+      std::ranges::all_of(o.probes, [&](const auto& probe) { return probe.point_m.y() >= plane; }) &&
+      std::ranges::all_of(o.sensors, [&](const auto& sensor) { return sensor.low_m.y() >= plane && sensor.high_m.y() > plane; });
+  if (!divides || !loaded_alike || !read_there || !coupling::symmetry_problems(s, plane).empty()) return {};
+  return {fmt::format("sea.tank.y_m=[{:.9g},{:.9g}]", plane, tank.y_m[1]), "sea.tank.sides_y=symmetric"};
+}
+
 /// The sides of a tank half as far from the bodies in it.
 Overrides nearer_tank_sides(const Scenario& s) {
   if (s.sea.particles->planar() || !s.sea.tank->meshes.empty()) return {};
@@ -159,7 +214,8 @@ Overrides nearer_tank_sides(const Scenario& s) {
   if (round.isEmpty()) return {};
   const auto& sides = s.sea.tank->y_m;
   auto [low, high] = sides;
-  low = std::max(low, 0.5 * (low + round.min().y())), high = std::min(high, 0.5 * (high + round.max().y()));
+  if (!s.sea.tank->symmetric()) low = std::max(low, 0.5 * (low + round.min().y()));
+  high = std::min(high, 0.5 * (high + round.max().y()));
   if (low == sides[0] && high == sides[1]) return {};
   return {fmt::format("sea.tank.y_m=[{:.6g},{:.6g}]", low, high)};
 }
@@ -229,8 +285,10 @@ const std::vector<Choice>& of_particles() {
          if (!same_across(s)) return {};
          const sea::TankOptions& tank = *s.sea.tank;
          return without(document, {"sea.tank.y_m", "sea.tank.sides_y"}) +
-                Overrides{"sea.particles.dimensions=\"2\"", fmt::format("sea.particles.width_m={}", tank.y_m[1] - tank.y_m[0])};
+                Overrides{"sea.particles.dimensions=\"2\"",
+                          fmt::format("sea.particles.width_m={}", (tank.symmetric() ? 2.0 : 1.0) * (tank.y_m[1] - tank.y_m[0]))};
        }},
+      {"symmetric half", [](const Scenario& s, const scene::Document&) { return symmetric_half(s); }, true},
       {"nearer sides of the tank", [](const Scenario& s, const scene::Document&) { return nearer_tank_sides(s); }},
       {"strips for the particles", strips},
   };
@@ -344,12 +402,19 @@ std::vector<SmallerChoice> smaller_choices(const coupling::Scenario& scenario, c
   const auto offer = [&](const std::vector<Choice>& choices) {
     for (const Choice& choice : choices)
       if (Overrides overrides = choice.overrides(scenario, document); !overrides.empty())
-        found.push_back({choice.name, std::move(overrides)});
+        found.push_back({choice.name, std::move(overrides), choice.in_plane && !scenario.bodies.empty()});
   };
   if (scenario.has_particles()) offer(of_particles());
   if (scenario.resolves_air()) offer(of_air());
   if (!scenario.has_particles() && !scenario.resolves_air()) offer(of_engineering());
   return found;
+}
+
+bool is_out_of_plane(std::string_view column) {
+  const std::string_view quantity = column.substr(column.rfind('.') + 1);
+  constexpr std::array of_sway_roll_yaw{"y_m",     "roll_deg",   "yaw_deg",    "vy_m_s", "wx_rad_s", "wz_rad_s",
+                                        "ay_m_s2", "awx_rad_s2", "awz_rad_s2", "fy_N",   "mx_N_m",   "mz_N_m"};
+  return std::ranges::find(of_sway_roll_yaw, quantity) != of_sway_roll_yaw.end();
 }
 
 }  // namespace spindrift::app

@@ -349,7 +349,9 @@ std::vector<io::ColumnSection> column_sections() {
                      "each source of load of a body (gravity, forces, joint_laws, beams, moorings, sea, contact, rotor, "
                      "yaw_drive), about its centre of mass",
                      wrench_columns()),
-          section_of("JOINT.", "each joint: its reaction", wrench_columns()),
+          section_of("JOINT.",
+                     "each joint: its reaction; symmetry_BODY is what holds a body in a plane of symmetry (sea.tank.sides_y)",
+                     wrench_columns()),
           section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
           section_of("joints.", "scenes with joints", constraint_columns()),
           section_of("energy.", "scenes with bodies: their balance of energy", energy_columns()),
@@ -369,7 +371,10 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("MOORING.", "each line of the model lumped_mass", anchor_columns()),
           section_of("JUNCTION.", "each junction of lines", junction_columns()),
           section_of("waves.", "engineering seas with waves", wave_columns()),
-          section_of("sea.", "seas of particles", water_columns()),
+          section_of("sea.",
+                     "seas of particles; masses and energies are those of both halves where sea.tank.sides_y is symmetric, "
+                     "counts of particles those of the one",
+                     water_columns()),
           section_of("wavemaker.", "tanks with a paddle", paddle_columns()),
           section_of("GAUGE.", "each gauge of a sea of particles", gauge_columns()),
           section_of("GAUGE.", "each gauge that goes with a body", run_up_columns()),

@@ -37,7 +37,7 @@ double particles(const Scenario& s, double spacing, double top) {
     water += size.x() * (planar ? spacing : size.y()) * size.z();
   }
   if (t.sides_x != "periodic") wall += 2.0 * y * (depth + top);
-  if (t.sides_y != "periodic" && !planar) wall += 2.0 * x * (depth + top);
+  if (t.sides_y != "periodic" && !planar) wall += (t.symmetric() ? 1.0 : 2.0) * x * (depth + top);
   return std::max(0.0, water) / std::pow(spacing, 3) + std::max(0.0, wall) / (spacing * spacing);
 }
 

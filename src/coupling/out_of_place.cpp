@@ -56,7 +56,7 @@ std::pair<double, std::string> depth_in_tank(const sph::TankPlan& tank, bool pla
     for (int axis = 0; axis < (planar ? 1 : 2); ++axis) {
       const std::array<double, 2>& sides = axis == 0 ? tank.x : tank.y;
       if (!tank.periodic[std::size_t(axis)] && !tank.open[std::size_t(axis)])
-        in(std::max(sides[0] - at[axis], at[axis] - sides[1]), "a wall of the tank");
+        in(std::max(tank.mirrored && axis == 1 ? 0.0 : sides[0] - at[axis], at[axis] - sides[1]), "a wall of the tank");
     }
   for (std::size_t n = 0; n < tank.obstacles.size(); ++n) {
     const sph::TankPlan::Block& block = tank.obstacles[n];

@@ -15,6 +15,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/symmetry.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/moorings/bed_file.hpp"
 #include "src/scene/error.hpp"
@@ -84,6 +85,8 @@ void check_particles(scene::Document& document, const Scenario& s) {
   const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
   for (const sea::OptionProblem& p : particle_problems(s.sea, s.waves, sea_environment(s.environment), bodies))
     document.problem(p.key, p.what, p.follows_from);
+  if (s.sea.tank->symmetric() && !s.sea.particles->planar())
+    for (const sea::OptionProblem& p : symmetry_problems(s, s.sea.tank->y_m[0])) document.problem(p.key, p.what, p.follows_from);
   std::vector<std::string> columns;
   for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
   for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);
@@ -603,7 +606,8 @@ std::string describe_rotor(const Scenario& s) {
 std::string describe_sea(const Scenario& s) {
   if (!s.has_sea()) return "none";
   if (s.has_particles()) {
-    std::string text = fmt::format("particles in {}-D, spacing {} m", s.sea.particles->dimensions, s.sea.particles->spacing_m);
+    std::string text = fmt::format("particles in {}-D, spacing {} m{}", s.sea.particles->dimensions, s.sea.particles->spacing_m,
+                                   s.sea.tank->symmetric() ? ", half of what is symmetrical about its lower y" : "");
     if (s.sea.wavemaker)
       text += fmt::format(", {} making {} waves (H {} m, T {} s)", s.sea.wavemaker->type, s.waves.model, s.waves.height_m,
                           s.waves.period_s);

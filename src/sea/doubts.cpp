@@ -122,7 +122,7 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   if (wavy && along < 0.5 * length)
     doubts.push_back({"sea.tank.x_m", fmt::format("{:.4g} m long with waves {:.4g} m long", along, length), "half a wave or more",
                       "look at the period and at the unit of the tank: m"});
-  const double longest = std::max(along, sea.tank->y_m[1] - sea.tank->y_m[0]);
+  const double longest = std::max(along, (sea.tank->symmetric() ? 2.0 : 1.0) * (sea.tank->y_m[1] - sea.tank->y_m[0]));
   if (sea.tank->top_m > longest)
     doubts.push_back({"sea.tank.top_m", fmt::format("{:.4g} m for a tank {:.4g} m long", sea.tank->top_m, longest),
                       "walls lower than the tank is long", "look at its unit: m above still water"});
@@ -158,7 +158,7 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
     const int axis = zone.axis == "y" ? 1 : 0;
     const auto [low, high] = std::minmax(zone.from_m, zone.to_m);
     const std::array<double, 2>& sides = axis == 1 ? sea.tank->y_m : sea.tank->x_m;
-    const double middle = 0.5 * (sides[0] + sides[1]);
+    const double middle = axis == 1 && sea.tank->symmetric() ? sides[0] : 0.5 * (sides[0] + sides[1]);
     if (low >= sides[1] || high <= sides[0])
       doubts.push_back({at + ".from_m", fmt::format("a zone from {:.4g} to {:.4g} m along {}", zone.from_m, zone.to_m, zone.axis),
                         fmt::format("within the tank, {:.4g} to {:.4g} m", sides[0], sides[1]),
@@ -186,8 +186,11 @@ void doubt_in_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOpti
   for (const auto& [name, box] : bodies.boxes)
     for (const auto& [axis, sides, kind] :
          {std::tuple{0, sea.tank->x_m, &sea.tank->sides_x}, std::tuple{1, sea.tank->y_m, &sea.tank->sides_y}}) {
-      const double gap = std::min(box.min()[axis] - sides[0], sides[1] - box.max()[axis]), spacing = sea.particles->spacing_m;
-      if (sea.particles->planar() || *kind != "wall" || box.min().z() > 0.0 || gap < 0.0 || gap >= spacings * spacing) continue;
+      const bool half = *kind == "symmetric";
+      const double over = sides[1] - box.max()[axis], gap = half ? over : std::min(box.min()[axis] - sides[0], over);
+      const double spacing = sea.particles->spacing_m;
+      if (sea.particles->planar() || (*kind != "wall" && !half) || box.min().z() > 0.0 || gap < 0.0 || gap >= spacings * spacing)
+        continue;
       doubts.push_back({"bodies." + name,
                         fmt::format("{:.3g} m from the tank's wall, {:.2g} spacings of the particles", gap, gap / spacing),
                         fmt::format("{:g} spacings at least", spacings), "take a wider tank: no particle fits between them"});

@@ -156,6 +156,13 @@ const Section<TankOptions>& tank_section() {
   static const std::vector<scene::Choice> sides = {{"wall", "walls of particles"},
                                                    {"periodic", "what leaves on one side enters on the other"},
                                                    {"open", "no walls: what comes there leaves, counted in history.csv"}};
+  static const std::vector<scene::Choice> sides_y = [] {
+    std::vector<scene::Choice> all = sides;
+    all.push_back({"symmetric",
+                   "a wall at the upper y; the lower one is a plane of symmetry, through the middle of all bodies, and the tank "
+                   "half of one. Loads, masses and energies are those of the whole; bodies stay in the plane"});
+    return all;
+  }();
   static const auto section =
       Section<TankOptions>("tank",
                            "The tank: walls, bed and open sides. Still water stands at z = 0, the flat bed at the water depth.")
@@ -168,7 +175,7 @@ const Section<TankOptions>& tank_section() {
                   {{"splash", "one in a hundred particles of the water may go; more ends the run"}, {"open", "any may go"}},
                   "What may leave over the walls' upper edge, counted in history.csv.")
           .choice("sides_x", &TankOptions::sides_x, sides, "The two ends.")
-          .choice("sides_y", &TankOptions::sides_y, sides, "The two long sides.")
+          .choice("sides_y", &TankOptions::sides_y, sides_y, "The two long sides.")
           .rows("bed_m", &TankOptions::bed_m, "m",
                 "Slopes and beaches: rows [x, z] of the bed's height, straight between them and level beyond; level at the water "
                 "depth "

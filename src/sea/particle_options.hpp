@@ -62,6 +62,8 @@ struct TankOptions {
   std::string over_edge = "splash";
   std::vector<scene::MeshOptions> meshes;
   std::vector<std::array<double, 2>> bed_m;  ///< [x, z]: height of the bed along x; flat at the water depth where empty
+
+  bool symmetric() const { return sides_y == "symmetric"; }
 };
 
 /// [[sea.water]], [[sea.obstacles]]

@@ -93,7 +93,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   const TankOptions& t = *o.tank;
   plan.tank.jitter = o.particles->jitter, plan.tank.jitter_seed = std::uint64_t(o.particles->jitter_seed);
   plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
-  plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"};
+  plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"}, plan.tank.mirrored = t.symmetric();
   plan.tank.open = {t.sides_x == "open", t.sides_y == "open"}, plan.tank.over_edge_open = t.over_edge == "open";
   for (const scene::MeshOptions& m : t.meshes) plan.tank.walls.push_back({m.prism ? m.prism : m.surface, m.water == "inside"});
   plan.tank.bed = t.bed_m, plan.tank.modified_walls = o.particles->modified_walls();
@@ -251,7 +251,11 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       const auto body = shaped(key, sensor.body);
       if (body == bodies.end()) continue;
       const Eigen::Vector3d low = sensor.low_m - body->described.position, high = sensor.high_m - body->described.position;
-      if (sph::points_of_surface(body->shapes, low, high, d, planar ? sph::Cut::plane : sph::Cut::space).empty())
+      const sph::Cut cut = planar ? sph::Cut::plane : t.symmetric() ? sph::Cut::half : sph::Cut::space;
+      if (t.symmetric() && sensor.low_m[1] < t.y_m[0])
+        wrong(key, fmt::format("reaches y = {} m, beyond the plane of symmetry (sea.tank.sides_y) at {} m", sensor.low_m[1],
+                               t.y_m[0]));
+      else if (sph::points_of_surface(body->shapes, low, high, d, cut).empty())
         wrong(key, "has nothing of the surface of " + sensor.body + " between low_m and high_m, where the scene describes it");
       continue;
     }
@@ -263,6 +267,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     const bool outside = sensor.low_m[0] < t.x_m[0] || sensor.high_m[0] > t.x_m[1] || sensor.low_m[2] < -depth ||
                          (!planar && (sensor.low_m[1] < t.y_m[0] || sensor.high_m[1] > t.y_m[1]));
     if (outside) wrong(key, "is outside the tank");
+    if (!outside && t.symmetric() && sensor.high_m[1] == t.y_m[0])
+      wrong(key, "is on the plane of symmetry (sea.tank.sides_y), where there is no wall");
   }
   for (std::size_t n = 0; n < o.damping_zones.size(); ++n) {
     const DampingZoneOptions& zone = o.damping_zones[n];
@@ -308,7 +314,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
                                     : "";
       if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m{}", low[2], bed, size));
       const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);
-      const bool outside_y = !planar && t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1]);
+      const bool outside_y = !planar && ((t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1])) ||
+                                         (t.symmetric() && high[1] > t.y_m[1]));
       if (outside_x || outside_y) wrong(key, "stands in a wall of the tank" + size);
       for (std::size_t n = 0; n < t.meshes.size(); ++n) {
         const scene::MeshOptions& m = t.meshes[n];

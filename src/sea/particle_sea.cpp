@@ -50,12 +50,12 @@ sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
 
 /// Largest step of a floating body in explicit coupling, as SeaSph::add_body bounds it.
 template <int dim>
-double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of, const sph::Parameters& p, double width) {
+double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of, const sph::Parameters& p, double share) {
   sph::Solid solid;
   for (const Eigen::Vector3d& x : of.points)
     solid.local.push_back(x), solid.low = solid.low.cwiseMin(x), solid.high = solid.high.cwiseMax(x);
-  if (of.particles == double(of.points.size())) return sph::body_step_limit(solid, body.mass / width, p, dim);
-  const double coarse = std::pow(of.cell, 1.0 / dim), relative_weight = body.mass / width / (of.particles * p.mass(dim));
+  if (of.particles == double(of.points.size())) return sph::body_step_limit(solid, body.mass / share, p, dim);
+  const double coarse = std::pow(of.cell, 1.0 / dim), relative_weight = body.mass / share / (of.particles * p.mass(dim));
   return 0.5 * sph::step_limit_body(relative_weight, solid.layers(coarse, dim) * coarse / p.spacing, p.spacing, p.eos.c0);
 }
 
@@ -63,7 +63,7 @@ double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of,
 template <int dim, class Real>
 sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, double reach,
                     const ParticleSolids<dim, Real>& solids) {
-  constexpr sph::Cut cut = dim == 2 ? sph::Cut::plane : sph::Cut::space;
+  const sph::Cut cut = plan.cut();
   const double d = plan.options.spacing_m;
   sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
   if (sensor.body.empty()) {
@@ -85,7 +85,8 @@ class Sea final : public ParticleSea {
  public:
   Sea(const ParticlePlan& plan, std::span<const Motion> start, sph::Parameters parameters, const sph::TankParticles<dim>& tank,
       const runtime::World& world)
-      : width_(dim == 2 ? plan.options.width_m : 1.0),
+      : share_(plan.share()),
+        width_(dim == 2 ? plan.options.width_m : 1.0),
         settle_damping_(plan.settle_damping),
         comm_(world.comm),
         ranks_(world.size),
@@ -212,7 +213,7 @@ class Sea final : public ParticleSea {
       }
     }
     const sph::Parameters& p = sea_.parameters();
-    const double half = 0.5 * p.spacing, mass = p.mass(dim) * width_, quantum = sph::energy_quantum(p, dim) * width_;
+    const double half = 0.5 * p.spacing, mass = p.mass(dim) * share_, quantum = sph::energy_quantum(p, dim) * share_;
     return {.x_max = all.x_max + half,
             .z_max = all.z_max + half,
             .mass = mass * double(all.particles),
@@ -300,7 +301,7 @@ class Sea final : public ParticleSea {
                            beyond->limit);
   }
 
-  double width_, settle_damping_;
+  double share_, width_, settle_damping_;
   MPI_Comm comm_;
   int ranks_;
   sph::SeaSph<dim, Real> sea_;
@@ -413,11 +414,11 @@ ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start
     if (body.shapes.empty()) continue;
     const sph::TankCount::Body& of = bodies[shaped++];
     census.bodies += std::size_t(std::llround(of.particles));
-    const double width = dim == 2 ? plan.options.width_m : 1.0, edge = std::pow(of.cell, 1.0 / dim);
-    census.floats.push_back({body.name, double(of.points.size()) * of.cell * width,
-                             sph::wetted_volume(of.points, start[b], of.cell, edge) * width,
-                             sph::rise_to_float(of.points, start[b], of.cell, edge, body.mass / (p.eos.rho0 * width))});
-    const double limit = body_step_limit<dim>(body, of, p, width);
+    const double share = plan.share(), edge = std::pow(of.cell, 1.0 / dim);
+    census.floats.push_back({body.name, double(of.points.size()) * of.cell * share,
+                             sph::wetted_volume(of.points, start[b], of.cell, edge) * share,
+                             sph::rise_to_float(of.points, start[b], of.cell, edge, body.mass / (p.eos.rho0 * share))});
+    const double limit = body_step_limit<dim>(body, of, p, share);
     if (limit < census.step_s) census.step_s = limit, census.step_set_by = "body " + body.name;
   }
   census.bytes *= double(census.particles());

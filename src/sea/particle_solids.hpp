@@ -1,6 +1,6 @@
 // The bodies of a scene and its paddle among the particles: where they are, and what the water and contacts do to them, in the
-// numbers of the scene (a width, in 2-D). Used by particle_sea.cpp; tested in tests/coupled/particle_sea_test.cpp and
-// sea_motion_test.cpp there. SPDX-License-Identifier: Apache-2.0
+// numbers of the scene (of a width in 2-D, of both halves of what is symmetrical). Used by particle_sea.cpp; tested in
+// tests/coupled/particle_sea_test.cpp and sea_motion_test.cpp there. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <optional>
@@ -25,7 +25,8 @@ class ParticleSolids {
   ParticleSolids(sph::SeaSph<dim, Real>& sea, const ParticlePlan& plan, std::span<const Motion> start,
                  const sph::TankParticles<dim>& tank, std::optional<sph::Wavemaker> wavemaker)
       : sea_(sea),
-        width_(dim == 2 ? plan.options.width_m : 1.0),
+        share_(plan.share()),
+        in_plane_(plan.cut() != sph::Cut::space),
         wavemaker_(std::move(wavemaker)),
         owner_of_body_(plan.bodies.size(), 0),
         state_{{start.begin(), start.end()}, std::vector<Wrench>(plan.bodies.size()), std::vector<Wrench>(plan.bodies.size())} {
@@ -37,7 +38,7 @@ class ParticleSolids {
     for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
       if (plan.bodies[b].shapes.empty()) continue;
       owner_of_body_[b] = tank.bodies[shaped++];
-      sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / width_);
+      sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / share_);
     }
   }
 
@@ -62,8 +63,8 @@ class ParticleSolids {
       const Eigen::Vector3d& at = state_.motions[b].position;
       state_.loads[b] = state_.contacts[b] = Wrench{.point = at};
       if (!owner_of_body_[b]) continue;
-      state_.loads[b] = of_width(sea_.load_on(owner_of_body_[b], at));
-      state_.contacts[b] = of_width(contact_on(sea_.contacts(), owner_of_body_[b], at));
+      state_.loads[b] = of_scene(sea_.load_on(owner_of_body_[b], at));
+      state_.contacts[b] = of_scene(contact_on(sea_.contacts(), owner_of_body_[b], at));
     }
   }
   /// Both, within a window: takes loads, asks the driver for the places, sets those of the sea's solids. What the driver throws
@@ -75,13 +76,13 @@ class ParticleSolids {
       state_.loads[b] = state_.contacts[b] = Wrench{.point = at};
       if (!owner_of_body_[b]) continue;
       for (std::size_t s = 0; s < known.size(); ++s)
-        if (known[s].owner == owner_of_body_[b]) state_.loads[b] = of_width(loads[s]);
+        if (known[s].owner == owner_of_body_[b]) state_.loads[b] = of_scene(loads[s]);
       for (const sph::Touch& touch : half.contacts) {
         if (touch.on != owner_of_body_[b] && touch.of != owner_of_body_[b]) continue;
         Wrench w = touch.wrench.about(at);
         if (touch.of == owner_of_body_[b]) w.force = -w.force, w.moment = -w.moment;
-        const Wrench wide = of_width(w);
-        state_.contacts[b].force += wide.force, state_.contacts[b].moment += wide.moment;
+        const Wrench all = of_scene(w);
+        state_.contacts[b].force += all.force, state_.contacts[b].moment += all.moment;
       }
     }
     double t = half.to;
@@ -99,16 +100,15 @@ class ParticleSolids {
   }
 
  private:
-  Wrench of_width(Wrench load) const {
-    if constexpr (dim == 2) {  // in the plane: no roll, no yaw
-      load.force[1] = 0.0, load.moment[0] = load.moment[2] = 0.0;
-    }
-    load.force *= width_, load.moment *= width_;
+  Wrench of_scene(Wrench load) const {
+    if (in_plane_) load.force[1] = 0.0, load.moment[0] = load.moment[2] = 0.0;  // no sway, no roll, no yaw
+    load.force *= share_, load.moment *= share_;
     return load;
   }
 
   sph::SeaSph<dim, Real>& sea_;
-  double width_;
+  double share_;
+  bool in_plane_;  ///< a sea of the plane, or symmetrical about one
   std::optional<sph::Wavemaker> wavemaker_;
   std::uint16_t paddle_ = 0;
   std::vector<std::uint16_t> owner_of_body_;

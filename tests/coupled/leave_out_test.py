@@ -33,6 +33,9 @@ SCENES = {
     "control/dtu_10mw_fixed": (["rotor.power_W", "rotor.thrust_N"], []),
     # Particles: alone, with bodies, in 3-D that could be 2-D.
     "leble_barakos/case1_demo": (["platform.pitch_deg", "line_downwind.tension_N"], ["time.end_s=1.0", "sea.initial.settle_s=0.5"]),
+    "validation/free_sphere/free_sphere": (["sphere.z_m", "sphere.sea.fz_N"], [
+        "time.end_s=0.8", "sea.particles.spacing_m=0.25", "sea.tank.x_m=[-3.0, 3.0]", "sea.tank.y_m=[-3.0, 3.0]", "sea.damping_zones=[]",
+        "sea.initial.settle_s=0.4"]),
     "validation/dam_break/koshizuka_oka": (["at_1_5.elevation_m", "corner.pressure_Pa"], []),
     "validation/dam_break/koshizuka_oka, 3-D": (["at_1_5.elevation_m", "corner.pressure_Pa"], [
         'sea.particles.dimensions="3"', "sea.tank.y_m=[0.0, 0.3]", "time.end_s=0.2"]),

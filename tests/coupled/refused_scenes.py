@@ -276,7 +276,29 @@ sea.tank.meshes[0].file="/dev/zero"
 sea.tank.meshes[0].position_m=[100.0, 0.0, 0.0]
 sea.tank.meshes[0].water="beside"
 sea.particles.walls="modified"
+sea.tank.sides_y="symmetric" & sea.tank.y_m=[0.0, 3.0] : bodies.buoy.meshes
 sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].position_m=[0.0, 3.0, 0.0] : bodies.buoy.meshes[0].file
+""",
+    "validation/free_sphere/free_sphere.toml": """
+sea.tank.sides_y="mirror"
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.centre_m=[0.0, 1.0, 0.0] : bodies.sphere.centre_m
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.spheres[0].centre_m=[0.0, 0.1, 0.0] : bodies.sphere.spheres[0]
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.inertia_kg_m2=[[838.0, 10.0, 0.0], [10.0, 838.0, 0.0], [0.0, 0.0, 838.0]] : bodies.sphere.inertia_kg_m2
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.displacement_m=[0.0, 0.1, 0.0] : bodies.sphere.displacement_m
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.rotation_deg=[5.0, 0.0, 0.0] : bodies.sphere.rotation_deg
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.rotation_deg=[0.0, 0.0, 5.0] : bodies.sphere.rotation_deg
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.velocity_m_s=[0.0, 0.1, 0.0] : bodies.sphere.velocity_m_s
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.omega_rad_s=[0.1, 0.0, 0.0] : bodies.sphere.omega_rad_s
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.particles.walls="modified" : sea.particles.walls
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.initial.settle_s=0.0 & sea.initial.settle_damping_1_s=0.0 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.1 & waves.period_s=2.0 & waves.direction_deg=20.0 : waves.direction_deg
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] : sea.tank.sides_y
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.gauges=[{name="beyond", point_m=[2.0, -1.0]}] : sea.gauges[0]
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.probes=[{name="beyond", point_m=[2.0, -1.0, -1.0]}] : sea.probes[0]
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.sensors=[{name="all_round", body="sphere", low_m=[-1.0, -1.0, -1.0], high_m=[1.0, 1.0, 0.0]}] : sea.sensors[0]
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.sensors=[{name="on_it", low_m=[-1.0, 0.0, -1.0], high_m=[1.0, 0.0, 0.0]}] : sea.sensors[0]
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & joints.turn={type="revolute", bodies=["earth", "sphere"], point_m=[0.0, 0.0, 0.0], axis=[1.0, 0.0, 0.0], rotation={speed_rpm=1.0}} : joints.turn.rotation
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & joints.push={type="translational", bodies=["earth", "sphere"], point_m=[0.0, 0.0, 0.0], axis=[0.0, 1.0, 0.0], translation={speed_m_s=0.1}} : joints.push.translation
+sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & joints.symmetry_sphere={type="planar", bodies=["earth", "sphere"], point_m=[0.0, 0.0, 0.0], axis=[0.0, 1.0, 0.0]} : joints.symmetry_sphere
 """,
     "validation/dam_break/koshizuka_oka.toml": """
 sea.particles.dimensions="4"

@@ -35,7 +35,7 @@ double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut) {
 }
 
 double volume_of(const BodyShape& shape, Cut cut) {
-  if (cut == Cut::space) return std::visit([](const auto& s) { return s.volume(); }, shape);
+  if (cut != Cut::plane) return (cut == Cut::half ? 0.5 : 1.0) * std::visit([](const auto& s) { return s.volume(); }, shape);
   if (const auto* c = std::get_if<Cylinder>(&shape))
     return std::abs(c->axis()[1]) > 0.5 ? pi * c->start_radius * c->start_radius
                                         : (c->start_radius + c->end_radius) * c->length();
@@ -70,9 +70,45 @@ Points fill_cylinder(const Cylinder& c, double spacing, Cut cut) {
   return points;
 }
 
+/// What is at y > 0 of a shape. Those that are symmetrical themselves are filled as halves, so that these have half the volume.
+Points fill_half(const BodyShape& shape, double spacing) {
+  constexpr double tiny = 1e-5;
+  Points points;
+  if (const auto* c = std::get_if<Cylinder>(&shape)) {
+    const Eigen::Vector3d middle = 0.5 * (c->start + c->end), axis = c->axis();
+    const bool central = std::abs(middle[1]) < tiny * c->length();
+    if (central && std::abs(axis[1]) > 1.0 - tiny && c->start_radius == c->end_radius) {
+      const Eigen::Vector3d& end = c->end[1] > middle[1] ? c->end : c->start;
+      return fill_cylinder({middle, end, c->start_radius, c->end_radius}, spacing, Cut::space);
+    }
+    if (central && std::abs(axis[1]) < tiny) {
+      const Eigen::Vector3d across = axis.cross(Eigen::Vector3d::UnitY());
+      double owed = 0.0;
+      for (double along : cell_centres(c->length(), spacing))
+        for (const Eigen::Vector2d& p :
+             points_in_half_disc(c->radius(0.5 + along / c->length()), spacing_across(c->length(), spacing), owed))
+          points.push_back(middle + along * axis + p[0] * across + p[1] * Eigen::Vector3d::UnitY());
+      return points;
+    }
+  } else if (const auto* b = std::get_if<Box>(&shape); b && std::abs(b->centre[1]) < tiny * b->size[1]) {
+    const Eigen::Vector3d size(b->size[0], 0.5 * b->size[1], b->size[2]);
+    points = points_in_box(size, spacing);
+    for (Eigen::Vector3d& p : points) p += b->centre + 0.5 * size[1] * Eigen::Vector3d::UnitY();
+    return points;
+  } else if (const auto* s = std::get_if<Sphere>(&shape); s && std::abs(s->centre[1]) < tiny * s->radius) {
+    points = points_in_half_sphere(s->radius, spacing);
+    for (Eigen::Vector3d& p : points) p += s->centre;
+    return points;
+  }
+  points = fill_shape(shape, spacing, Cut::space);
+  std::erase_if(points, [](const Eigen::Vector3d& p) { return p[1] <= 0.0; });
+  return points;
+}
+
 }  // namespace
 
 Points fill_shape(const BodyShape& shape, double spacing, Cut cut) {
+  if (cut == Cut::half) return fill_half(shape, spacing);
   if (const auto* c = std::get_if<Cylinder>(&shape)) return fill_cylinder(*c, spacing, cut);
   if (const auto* m = std::get_if<Mesh>(&shape)) return cut == Cut::plane ? fill_mesh<2>(*m, spacing) : fill_mesh<3>(*m, spacing);
   Points points;

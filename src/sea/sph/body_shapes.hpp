@@ -19,8 +19,8 @@ namespace spindrift::sph {
 using BodyShape = std::variant<Cylinder, Box, Sphere, Mesh>;
 
 /// A 2-D scene cuts bodies in the plane y = 0 of their centre: a cylinder along y is a disc, one in the plane a rectangle, a mesh
-/// is a prism.
-enum class Cut { space, plane };
+/// is a prism. The half of a body that is symmetrical about that plane is what it has at y > 0.
+enum class Cut { space, plane, half };
 
 /// Distance of a point from the surface, negative inside [m]; exact but at the rims of cones.
 double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut);
@@ -28,7 +28,7 @@ double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut);
 /// The same from the union: the least of its shapes'.
 double signed_distance(std::span<const BodyShape> shapes, const Eigen::Vector3d& x, Cut cut);
 
-/// Volume [m3], or area of the section [m2].
+/// Volume [m3], or area of the section [m2]; of halves half the shape's, which they are in the sum over a symmetrical body.
 double volume_of(const BodyShape& shape, Cut cut);
 
 /// The particles of one shape, body axes.

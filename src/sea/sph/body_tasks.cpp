@@ -18,7 +18,7 @@ BodyTasks<dim, Real>::BodyTasks(StepRecording<dim, Real>& recording, const StepD
   const Subdomain& subdomain = sea.subdomain;
   if (!driver_.move_bodies) return;
   // Bodies load the groups they are in and two rings round these: path_limit sees to it that none goes farther.
-  std::vector<std::uint8_t> region(std::size_t(sea.columns.groups()), 0);
+  std::vector<std::uint8_t> region(std::size_t(sea.columns.groups_and_images()), 0);
   for (const Solid& solid : sea.solids)
     for (const Eigen::Vector3d& local : solid.local) {
       const auto x = from_earth<dim>(solid.motion.point(local));

@@ -17,6 +17,7 @@ template <int dim>
 struct Domain {
   std::array<double, dim> low, high;
   std::array<bool, dim> periodic{}, open{};  ///< open: without a wall there
+  bool mirrored = false;                     ///< in 3-D: the side low[1] is a plane of symmetry
   /// The walls' outer faces, where there are walls, and the height of their upper edge: water beyond these and over that has
   /// left.
   std::array<double, dim> outer_low = everywhere(-1.0), outer_high = everywhere(1.0);
@@ -36,6 +37,8 @@ struct Domain {
     for (int k = 0; k < dim - 1; ++k) outside = outside || x[k] < outer_low[k] || x[k] > outer_high[k];
     return outside && x[dim - 1] > edge;
   }
+  /// The mirror image in the plane of symmetry.
+  double image(double y) const { return 2.0 * low[1] - y; }
   /// How a particle that is no more in the tank left it.
   enum class Exit { lost, over_edge, open_side };
   Exit exit_of(const std::array<double, dim>& x) const {
@@ -69,6 +72,12 @@ class Columns {
   }
 
   int groups() const { return dim == 2 ? count_[0] : count_[0] * count_[1]; }
+  /// With the images of the groups beside the plane of symmetry, which have the numbers from groups() on. Nobody owns these, and
+  /// no pair of two of them is anybody's.
+  int groups_and_images() const { return groups() + (domain_.mirrored ? count_[0] : 0); }
+  bool is_image(int group) const { return group >= groups(); }
+  /// Of which group it is the image.
+  int source(int image) const { return (image - groups()) * count_[dim - 2]; }
   /// Column of a position inside the domain.
   int group(const std::array<double, dim>& x) const {
     int index = 0;
@@ -83,7 +92,7 @@ class Columns {
   double edge(int axis) const { return edge_[axis]; }
 
   /// The neighbours whose pairs with `group` are this group's to compute: half of the ring, so that each pair of columns occurs
-  /// once.
+  /// once; and the images beside it.
   template <class Visit>
   void for_forward(int group, Visit&& visit) const {
     if constexpr (dim == 2) {
@@ -92,10 +101,12 @@ class Columns {
       const int a = group / count_[1], b = group % count_[1];
       visit_cell({a, b + 1}, visit);
       for (int step = -1; step <= 1; ++step) visit_cell({a + 1, b + step}, visit);
+      if (domain_.mirrored && b == 0)
+        for (int step = -1; step <= 1; ++step) visit_image(a + step, visit);
     }
   }
 
-  /// All columns that a box [low, high] touches, each with the shift that puts it beside the box.
+  /// All columns that a box [low, high] touches, images too, each with the shift that puts it beside the box.
   template <class Visit>
   void for_overlapping(const std::array<double, dim>& low, const std::array<double, dim>& high, Visit&& visit) const {
     std::array<int, dim - 1> first, last;
@@ -105,27 +116,35 @@ class Columns {
       if (domain_.periodic[k])
         last[k] = std::min(last[k], first[k] + count_[k] - 1);
       else
-        first[k] = std::clamp(first[k], 0, count_[k] - 1), last[k] = std::clamp(last[k], 0, count_[k] - 1);
+        first[k] = std::clamp(first[k], k == 1 && domain_.mirrored ? -1 : 0, count_[k] - 1),
+        last[k] = std::clamp(last[k], 0, count_[k] - 1);
     }
     if constexpr (dim == 2) {
       for (int a = first[0]; a <= last[0]; ++a) visit_cell({a}, visit);
     } else {
       for (int a = first[0]; a <= last[0]; ++a)
-        for (int b = first[1]; b <= last[1]; ++b) visit_cell({a, b}, visit);
+        for (int b = first[1]; b <= last[1]; ++b) {
+          if (b < 0 && domain_.mirrored)
+            visit_image(a, visit);
+          else
+            visit_cell({a, b}, visit);
+        }
     }
   }
 
   /// Groups of one colour write to disjoint groups when each updates itself and its forward neighbours, so they may run at once;
   /// colours run in order, hence every sum has one order of terms whatever the threads do.
-  int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, 2) * axis_colours(1, 3); }
+  int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, along()) * axis_colours(1, 3); }
   int colour(int group) const {
     if constexpr (dim == 2)
       return axis_colour(0, group, 2);
     else
-      return axis_colour(0, group / count_[1], 2) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
+      return axis_colour(0, group / count_[1], along()) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
   }
 
  private:
+  /// Period of the colours along the first axis: a group writes to the images on either side of it.
+  int along() const { return domain_.mirrored ? 3 : 2; }
   // A periodic ring whose length is no multiple of the period gives its last cells colours of their own.
   int axis_colours(int axis, int period) const { return period + (domain_.periodic[axis] ? count_[axis] % period : 0); }
   int axis_colour(int axis, int cell, int period) const {
@@ -147,6 +166,20 @@ class Columns {
       index = index * count_[k] + cell[k];
     }
     neighbour.group = index;
+    visit(neighbour);
+  }
+
+  /// The image beside the plane of symmetry in this row of columns.
+  template <class Visit>
+  void visit_image(int row, Visit&& visit) const {
+    Neighbour<dim> neighbour;
+    if (row < 0 || row >= count_[0]) {
+      if (!domain_.periodic[0]) return;
+      const int turn = row < 0 ? -1 : 1;
+      row -= turn * count_[0];
+      neighbour.shift[0] = turn * (domain_.high[0] - domain_.low[0]);
+    }
+    neighbour.group = groups() + row;
     visit(neighbour);
   }
 

@@ -85,6 +85,7 @@ void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, c
     for (int k = 0; k < dim; ++k) force[k] = ordered ? f[k] : -f[k], place[k] = at[k];
     touch->wrench.add_force(to_earth<dim>(force), to_earth<dim>(place));
   };
+  double share = 1.0;  // of two that meet across a plane of symmetry each meets the other's image: half a contact each
   const auto meet = [&](std::uint32_t i, std::uint32_t j, const std::array<double, dim>& shift) {
     for (int k = 0; k < dim; ++k) {
       const float gap = float(1.01 * law.spacing);
@@ -103,7 +104,7 @@ void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, c
         Vec<double, dim> beside = at;  // where the other one sees it
         for (int k = 0; k < dim; ++k) beside[k] -= shift[k];
         v = velocity(store.owner[i], at) - velocity(store.owner[j], beside);
-        const Vec<double, dim> force = law.force(x, v);
+        const Vec<double, dim> force = share * law.force(x, v);
         if (dot(force, force) > 0.0) add(i, j, at, force);
       }
   };
@@ -126,6 +127,7 @@ void find_contacts(const Store<dim, Real>& store, const Columns<dim>& columns, c
   columns.for_forward(group, [&](const Neighbour<dim>& near) {
     const Group& other = store.groups[near.group];
     if (other.solid == other.end) return;
+    share = columns.is_image(near.group) ? 0.5 : 1.0;
     meet_all(other, reached_in(other), near.shift, false);
   });
 }

@@ -12,6 +12,63 @@ using runtime::updates;
 using runtime::Uses;
 using runtime::writes;
 
+namespace {
+
+/// Sums of groups that are not own are of no use to anybody; they must only stay finite.
+template <int dim, class Real>
+void clear_sums(Store<dim, Real>& store, const Group& group) {
+  constexpr std::size_t size = sum_planes<dim> * cluster_size;
+  std::fill(store.sums.data() + group.fluid * size, store.sums.data() + group.end * size, Real(0));
+  for (std::size_t n = 0; n < store.extra_sums.size(); ++n) {
+    const std::size_t extra = std::size_t(store.extra_planes[n]) * cluster_size;
+    std::fill_n(store.extra_sums[n].data() + group.fluid * extra, (group.end - group.fluid) * extra, Real(0));
+  }
+}
+
+/// Copies planes of 16 numbers, those that change their sign in a mirror with the other one.
+template <class Real>
+void copy_mirrored(const Real* from, Real* to, int planes, int odd, int also_odd) {
+  for (int plane = 0; plane < planes; ++plane)
+    for (int lane = 0; lane < cluster_size; ++lane, ++from, ++to) *to = plane == odd || plane == also_odd ? -*from : *from;
+}
+
+/// Position and velocity along the second axis, or the stresses xy and yz, are those that turn round.
+template <int dim, class Real>
+void mirror(Store<dim, Real>& store, const Group& of, const Group& image, bool stress) {
+  for (std::size_t n = 0; n < of.end - of.fluid; ++n) {
+    const std::size_t from = of.fluid + n, to = image.fluid + n;
+    if (stress) {
+      const std::size_t size = std::size_t(store.stress_planes) * cluster_size;
+      using Tensor = SymmetricTensor<Real, dim>;
+      copy_mirrored<Real>(store.stress.data() + from * size, store.stress.data() + to * size, store.stress_planes,
+                          Tensor::place(0, 1), Tensor::place(1, dim - 1));
+    } else {
+      copy_mirrored<Real>(store.pack_of(from), store.pack_of(to), pack_planes<dim>, 1, dim + 1);
+      set_box(store, to);
+    }
+  }
+  if (!stress) clear_sums(store, image);
+}
+
+}  // namespace
+
+template <int dim, class Real>
+void HaloTasks<dim, Real>::record_images(StepRecording<dim, Real>& recording, const std::string& label, HaloOf what) {
+  auto& r = recording;
+  const bool stress = what == HaloOf::stress;
+  for (const int image : r.sea.subdomain.images) {
+    const int source = r.sea.columns.source(image);
+    const auto to = std::size_t(image), from = std::size_t(source);
+    Uses uses = {reads(r.order), reads(r.plan), reads(r.planes[from]), reads(r.walls[from]), writes(r.planes[to])};
+    for (const GroupData* data : {&r.walls, &r.sums, &r.extra[0], &r.extra[1], &r.extra[2]}) uses.push_back(writes((*data)[to]));
+    if (stress) uses.push_back(reads(r.stress[from]));
+    uses.push_back(writes(r.stress[to]));
+    r.graph.task(task_name(label + "/image", to), uses, r.if_active([&store = r.sea.store, image, source, stress] {
+      mirror(store, store.groups[std::size_t(source)], store.groups[std::size_t(image)], stress);
+    }));
+  }
+}
+
 template <int dim, class Real>
 void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std::string& label, HaloOf what) {
   auto& r = recording;
@@ -63,18 +120,13 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
           std::copy(from, from + size, values(std::uint32_t(cluster)));
           if (stress) continue;
           set_box(store, cluster);
-          std::fill_n(store.sums_of(cluster), sum_planes<dim> * cluster_size, Real(0));
         }
-        if (stress) continue;
-        // Sums of the halo are of no use to anybody; they must only stay finite.
-        for (std::size_t n = 0; n < store.extra_sums.size(); ++n) {
-          const std::size_t extra = std::size_t(store.extra_planes[n]) * cluster_size;
-          std::fill_n(store.extra_sums[n].data() + group.fluid * extra, (group.end - group.fluid) * extra, Real(0));
-        }
+        if (!stress) clear_sums(store, group);
       }
     }));
   }
   ++next_tag_;
+  record_images(r, label, what);
 }
 
 template class HaloTasks<SPINDRIFT_SPH_DIM, SPINDRIFT_SPH_REAL>;

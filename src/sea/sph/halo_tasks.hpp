@@ -1,5 +1,6 @@
-// Planes of the groups at borders as messages between ranks, recorded as tasks. Used by tasks.cpp; tested in
-// tests/src/sea/sph/tasks_test.cpp on several ranks. SPDX-License-Identifier: Apache-2.0
+// Planes of the groups at borders as messages between ranks, and those of images in a plane of symmetry, recorded as tasks. Used
+// by tasks.cpp; tested in tests/src/sea/sph/tasks_test.cpp on several ranks and mirrored_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <deque>
@@ -21,10 +22,12 @@ class HaloTasks {
   HaloTasks(const HaloTasks&) = delete;  // tasks refer to its messages
   HaloTasks& operator=(const HaloTasks&) = delete;
 
-  /// Values of the groups at borders go to the ranks beside, as one message each.
+  /// Values of the groups at borders go to the ranks beside, as one message each; then images take those of their groups.
   void record(StepRecording<dim, Real>& recording, const std::string& label, HaloOf what);
 
  private:
+  static void record_images(StepRecording<dim, Real>& recording, const std::string& label, HaloOf what);
+
   struct Message {
     std::vector<Real> out{}, in{};
   };

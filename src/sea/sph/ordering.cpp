@@ -78,6 +78,10 @@ void Sorting<dim, Real>::classify(int part) {
         const double length = domain.high[k] - domain.low[k];
         store_.x[k][slot] -= length * std::floor((store_.x[k][slot] - domain.low[k]) / length);
       }
+      if (domain.mirrored && k == 1 && store_.x[k][slot] < domain.low[k]) {  // its image is in the tank now
+        store_.x[k][slot] = domain.image(store_.x[k][slot]), store_.v[k][slot] = -store_.v[k][slot];
+        if (!store_.v_before[k].empty()) store_.v_before[k][slot] = -store_.v_before[k][slot];
+      }
       x[k] = store_.x[k][slot];
     }
     key_[slot] = domain.contains(x) && !(store_.owner[slot / cluster_size] == 0 && domain.passed_edge(x))
@@ -155,7 +159,7 @@ void Sorting<dim, Real>::halve(int part) {
 
 template <int dim, class Real>
 void Sorting<dim, Real>::lay_out() {
-  store_.groups.assign(std::size_t(columns_.groups()), Group{});
+  store_.groups.assign(std::size_t(columns_.groups_and_images()), Group{});
   store_.owner.clear();
   store_.longest = 0;
   for (std::size_t own = 0; own < subdomain_.own.size(); ++own) {
@@ -227,6 +231,23 @@ void Sorting<dim, Real>::make_anchors() {
   for (int k = 0; k < dim; ++k) store_.anchor[k].resize(store_.clusters());
 }
 
+/// The structure of the images, behind that of the halo.
+template <int dim, class Real>
+void append_images(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain) {
+  for (const int image : subdomain.images) {
+    const Group of = store.groups[std::size_t(columns.source(image))];
+    Group& group = store.groups[std::size_t(image)];
+    group.fluid = std::uint32_t(store.owner.size());
+    group.solid = group.fluid + (of.solid - of.fluid), group.end = group.fluid + (of.end - of.fluid);
+    for (std::uint32_t cluster = of.fluid; cluster < of.end; ++cluster) {
+      store.owner.push_back(store.owner[cluster]);
+      for (std::uint32_t lane = 0; lane < cluster_size; ++lane) store.id.push_back(store.id[cluster * cluster_size + lane]);
+      for (int k = 0; k < dim; ++k)
+        store.anchor[k].push_back(k == 1 ? columns.domain().image(store.anchor[k][cluster]) : store.anchor[k][cluster]);
+    }
+  }
+}
+
 template <int dim, class Real>
 void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& columns, const Subdomain& subdomain, MPI_Comm comm) {
   store.corner = columns.domain().low;
@@ -260,6 +281,7 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
       }
     }
   }
+  append_images(store, columns, subdomain);
   store.pack.resize(store.all_clusters() * pack_planes<dim> * cluster_size);
   store.sums.resize(store.all_clusters() * sum_planes<dim> * cluster_size);
   store.stress.resize(store.all_clusters() * std::size_t(store.stress_planes) * cluster_size);

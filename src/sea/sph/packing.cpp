@@ -18,7 +18,8 @@ constexpr int turns = 200;              // the concentration is then even to a f
 }  // namespace
 
 template <int dim>
-void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing) {
+void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing,
+                 std::optional<double> plane) {
   if (points.empty()) return;
   const KernelWendland<dim> kernel(h_over_spacing * spacing);
   const double h = kernel.h(), volume = std::pow(spacing, dim), support = 2.0 * h;
@@ -27,7 +28,14 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
   const std::vector<std::array<double, dim>> start = points;
   std::vector<std::array<double, dim>> all = points, next(moving);
   all.insert(all.end(), fixed.begin(), fixed.end());
+  const std::size_t without_images = all.size();
   for (int turn = 0; turn < turns; ++turn) {
+    all.resize(without_images);
+    for (std::size_t n = 0; n < without_images && plane; ++n) {
+      std::array<double, dim> image = all[n];
+      image[1] = 2.0 * *plane - image[1];
+      if (all[n][1] - *plane < support) all.push_back(image);
+    }
     const PointCells<dim> cells(all, support);
     for (std::size_t i = 0; i < moving; ++i) {
       if (i % 4096 == 0) runtime::StopRequest::give_up_if_asked();
@@ -50,7 +58,9 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
   }
   points = std::move(next);
 }
-template void pack_evenly<2>(std::vector<std::array<double, 2>>&, std::span<const std::array<double, 2>>, double);
-template void pack_evenly<3>(std::vector<std::array<double, 3>>&, std::span<const std::array<double, 3>>, double);
+template void pack_evenly<2>(std::vector<std::array<double, 2>>&, std::span<const std::array<double, 2>>, double,
+                             std::optional<double>);
+template void pack_evenly<3>(std::vector<std::array<double, 3>>&, std::span<const std::array<double, 3>>, double,
+                             std::optional<double>);
 
 }  // namespace spindrift::sph

@@ -5,13 +5,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace spindrift::sph {
 
-/// Moves the points; `fixed` ones stay. All stand for a cell of spacing^dim. No point goes farther than a spacing.
+/// Moves the points; `fixed` ones stay. All stand for a cell of spacing^dim. No point goes farther than a spacing. `plane`: of
+/// symmetry, a value of the second coordinate [m]; all have their images beyond it.
 template <int dim>
-void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing);
+void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing,
+                 std::optional<double> plane = {});
 
 }  // namespace spindrift::sph

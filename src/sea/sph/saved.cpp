@@ -129,7 +129,7 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
       throw std::invalid_argument("sea: a saved state does not hold what its groups say, or was made with another step");
   }
   Store<dim, Real>& store = sea.store;
-  store.groups.assign(std::size_t(sea.columns.groups()), Group{});
+  store.groups.assign(std::size_t(sea.columns.groups_and_images()), Group{});
   std::size_t clusters = 0;
   store.longest = 0;
   for (const int g : sea.subdomain.own) {

@@ -75,6 +75,21 @@ std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
   return points_in_disc(radius, spacing, owed);
 }
 
+std::vector<Eigen::Vector2d> points_in_half_disc(double radius, double spacing, double& owed) {
+  const int rings = whole_spacings(radius, spacing);
+  const double width = radius / rings;
+  std::vector<Eigen::Vector2d> points;
+  double area = owed;
+  for (int ring = 0; ring < rings; ++ring) {
+    area += 0.5 * pi * (2 * ring + 1) * width * width / (spacing * spacing);
+    const int n = std::max(1, int(std::lround(area - double(points.size()))));
+    const double r = centroid_of_sector(width * ring, width * (ring + 1), 2 * n);
+    for (int k = 0; k < n; ++k) points.push_back({r * std::cos(pi * (k + 0.5) / n), r * std::sin(pi * (k + 0.5) / n)});
+  }
+  owed = area - double(points.size());
+  return points;
+}
+
 Points points_in_cylinder(double radius, double length, int axis, double spacing) {
   const std::vector<double> layers = length > 0.0 ? cell_centres(length, spacing) : std::vector<double>{0.0};
   const double across = length > 0.0 ? spacing_across(length, spacing) : spacing;
@@ -100,6 +115,23 @@ Points points_in_sphere(double radius, double spacing) {
     for (int k = 0; k < n; ++k) {
       const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z);
       points.push_back(r * Eigen::Vector3d(ring * std::cos(golden * k), ring * std::sin(golden * k), z));
+    }
+  }
+  return points;
+}
+
+Points points_in_half_sphere(double radius, double spacing) {
+  const int shells = whole_spacings(radius, spacing);
+  const double width = radius / shells, golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  Points points;
+  for (int shell = 0; shell < shells; ++shell) {
+    const double volume = 2.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
+    const int n = std::max(1, int(std::lround(volume - double(points.size()))));
+    const double r = centroid_of_cone(width * shell, width * (shell + 1), 2 * n);
+    for (int k = 0; k < n; ++k) {
+      const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z), turns = 0.5 + golden * k;
+      const double angle = pi * (turns - std::floor(turns));
+      points.push_back(r * Eigen::Vector3d(ring * std::cos(angle), ring * std::sin(angle), z));
     }
   }
   return points;

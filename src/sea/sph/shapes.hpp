@@ -42,10 +42,15 @@ inline double spacing_across(double length, double spacing) {
 std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed);
 std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing);
 
+/// The half of a disc with a positive second component.
+std::vector<Eigen::Vector2d> points_in_half_disc(double radius, double spacing, double& owed);
+
 /// Circular cylinder along an axis (0 x, 1 y, 2 z); length zero makes the disc of a 2-D scene.
 Points points_in_cylinder(double radius, double length, int axis, double spacing);
 
 /// Sphere: shells of points spread by the golden angle.
 Points points_in_sphere(double radius, double spacing);
+/// Its half with y > 0, as evenly.
+Points points_in_half_sphere(double radius, double spacing);
 
 }  // namespace spindrift::sph

@@ -40,11 +40,12 @@ StepRecording<dim, Real>::StepRecording(SeaState<dim, Real>& sea, runtime::Graph
   order = graph.datum(), plan = graph.datum(), loads = graph.datum();
   // Places follow the own groups, so that a thread keeps its region; groups of the halo have none.
   for (GroupData* data : {&state, &planes, &walls, &sums, &stress, &touches, &extra[0], &extra[1], &extra[2]}) {
-    data->resize(std::size_t(sea.columns.groups()));
+    data->resize(std::size_t(sea.columns.groups_and_images()));
     for (std::size_t n = 0; n < subdomain.own.size(); ++n)
       (*data)[std::size_t(subdomain.own[n])] = graph.datum(float(n) / float(subdomain.own.size()));
     for (const Subdomain::Border& border : subdomain.borders)
       for (const int g : border.received) (*data)[std::size_t(g)] = graph.datum();
+    for (const int g : subdomain.images) (*data)[std::size_t(g)] = graph.datum();
   }
   for (const int g : subdomain.own) {
     const Group& group = sea.store.groups[std::size_t(g)];

@@ -23,8 +23,9 @@ struct Subdomain {
   int rank = 0;
   std::vector<int> rank_of_group;
   std::vector<int> own;             ///< ascending
+  std::vector<int> images;          ///< beside own groups, ascending; made here, of own groups and of those of the halo
   std::vector<Border> borders;      ///< by rank, ascending
-  std::vector<std::uint8_t> owned;  ///< by group: 1 for own ones
+  std::vector<std::uint8_t> owned;  ///< by group, images too: 1 for own ones
 
   bool owns(int group) const { return owned[std::size_t(group)] != 0; }
 };
@@ -34,15 +35,21 @@ template <int dim>
 Subdomain subdomain_of(const Columns<dim>& columns, std::vector<int> rank_of_group, int rank, int rings = 1) {
   Subdomain t{.rank = rank, .rank_of_group = std::move(rank_of_group)};
   const int groups = columns.groups();
-  t.owned.resize(std::size_t(groups));
+  t.owned.resize(std::size_t(columns.groups_and_images()));
   std::vector<std::vector<int>> around(std::size_t(groups), std::vector<int>{});
+  std::set<int> images;
   for (int g = 0; g < groups; ++g) {
     t.owned[std::size_t(g)] = t.rank_of_group[std::size_t(g)] == rank;
     if (t.owns(g)) t.own.push_back(g);
     columns.for_forward(g, [&](const Neighbour<dim>& near) {
+      if (columns.is_image(near.group)) {
+        if (t.owns(g)) images.insert(near.group);
+        return;
+      }
       around[std::size_t(g)].push_back(near.group), around[std::size_t(near.group)].push_back(g);
     });
   }
+  t.images.assign(images.begin(), images.end());
   std::vector<std::set<int>> sent(std::size_t(1 + *std::max_element(t.rank_of_group.begin(), t.rank_of_group.end())));
   auto received = sent;
   for (const int g : t.own) {
@@ -84,9 +91,9 @@ runtime::BlockGraph block_graph(const Columns<dim>& columns, const std::vector<G
     const auto a = std::size_t(g);
     graph.cost[a] += water[a] * (0.5 * water[a] + solid[a]) + 0.2 * (water[a] + solid[a]);
     columns.for_forward(g, [&](const Neighbour<dim>& near) {
-      const auto b = std::size_t(near.group);
+      const auto b = std::size_t(columns.is_image(near.group) ? columns.source(near.group) : near.group);
       graph.cost[a] += 0.6 * (water[a] * (water[b] + solid[b]) + solid[a] * water[b]);  // not all of them come near
-      if (water[a] + solid[a] + water[b] + solid[b] > 0)
+      if (!columns.is_image(near.group) && water[a] + solid[a] + water[b] + solid[b] > 0)
         graph.edges.push_back({g, near.group, water[a] + solid[a] + water[b] + solid[b]});
     });
   }

@@ -95,6 +95,7 @@ class Layout {
   Layout(const TankPlan& plan, const Parameters& p)
       : plan_(plan),
         p_(p),
+        cut_(cut_of<dim>(plan)),
         lattice_(plan, p.spacing),
         layers_(wall_layers(p)),
         by_surfaces_(plan, lattice_, layers_ * p.spacing) {
@@ -133,7 +134,7 @@ class Layout {
       }
       lowest = std::min(lowest, seed.position[dim - 1]);
     });
-    pack_evenly<dim>(points, fixed, spacing_of_cells());
+    pack_evenly<dim>(points, fixed, spacing_of_cells(), plan_.mirrored ? std::optional(plan_.y[0]) : std::nullopt);
     for (std::size_t n = 0; n < aside.size(); ++n) {
       Moved& moved = aside[n];
       const double risen = points[n][dim - 1] - moved.position[dim - 1];
@@ -184,7 +185,6 @@ class Layout {
   }
 
   static constexpr double near_bodies = 6.0;  ///< spacings: half of it is packed anew, between the other half
-  static constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
 
   bool walled(std::size_t axis) const { return !plan_.periodic[axis] && !plan_.open[axis]; }
   double deviation_at(double z, double surface) const {
@@ -211,7 +211,7 @@ class Layout {
     for (std::size_t b = 0; b < plan_.bodies.size(); ++b) {
       const TankPlan::Body& body = plan_.bodies[b];
       const Eigen::Vector3d local = body.motion.attitude.conjugate() * (x - body.motion.position);
-      if (local.cwiseAbs().maxCoeff() < extent_[b]) nearest = std::min(nearest, signed_distance(body.shapes, local, cut));
+      if (local.cwiseAbs().maxCoeff() < extent_[b]) nearest = std::min(nearest, signed_distance(body.shapes, local, cut_));
     }
     return nearest;
   }
@@ -234,7 +234,7 @@ class Layout {
   double spacing_of_cells() const { return p_.spacing * std::pow(cell_volume_, 1.0 / dim); }
   void fill_bodies() {
     for (const TankPlan::Body& body : plan_.bodies) {
-      points_.push_back(fill_body(body.shapes, spacing_of_cells(), cut));
+      points_.push_back(fill_body(body.shapes, spacing_of_cells(), cut_));
       double far = 0.0;
       for (const Eigen::Vector3d& point : points_.back()) far = std::max(far, point.cwiseAbs().maxCoeff());
       extent_.push_back(far + 2.0 * near_bodies * p_.spacing);
@@ -349,14 +349,14 @@ class Layout {
   }
   /// Mirror image of a body's particle in its surface, as far in as the support reaches.
   std::array<double, dim> ghost_of_body(const TankPlan::Body& body, const Eigen::Vector3d& local) const {
-    const double depth = -signed_distance(body.shapes, local, cut);
+    const double depth = -signed_distance(body.shapes, local, cut_);
     if (depth <= 0.0 || depth > layers_ * p_.spacing) return {};
     const double step = 1e-3 * p_.spacing;
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
     for (const int axis : {0, 1, 2}) {
       if (dim == 2 && axis == 1) continue;
       const Eigen::Vector3d along = step * Eigen::Vector3d::Unit(axis);
-      out[axis] = signed_distance(body.shapes, local + along, cut) - signed_distance(body.shapes, local - along, cut);
+      out[axis] = signed_distance(body.shapes, local + along, cut_) - signed_distance(body.shapes, local - along, cut_);
     }
     if (out.norm() < step) return {};  // on a ridge: as far from one face as from another
     return from_earth<dim>(body.motion.attitude * (2.0 * depth * out.normalized()));
@@ -370,7 +370,7 @@ class Layout {
     low[0] = walled(0) ? -behind : 0;
     if (walled(0)) high[0] += layers_;
     if constexpr (dim == 3)
-      if (walled(1)) low[1] = -layers_, high[1] += layers_;
+      if (walled(1)) low[1] = plan_.mirrored ? 0 : -layers_, high[1] += layers_;
     double lowest = -plan_.depth;
     for (const auto& point : plan_.bed) lowest = std::min(lowest, point[1]);
     low[dim - 1] = int(std::floor((lowest + plan_.depth) / lattice_.edge[dim - 1])) - layers_;
@@ -440,6 +440,8 @@ class Layout {
       if (!(k == 0 && plan_.paddle)) domain.outer_low[k] = side[0] - outside;
       domain.outer_high[k] = side[1] + outside;
     }
+    if constexpr (dim == 3)
+      if ((domain.mirrored = plan_.mirrored)) domain.low[1] = plan_.y[0], domain.outer_low[1] = domain.everywhere(-1.0)[1];
     domain.edge = plan_.top - p_.spacing;
     domain.low[dim - 1] = lowest - margin;
     domain.high[dim - 1] = highest + 2.0 * (highest + plan_.depth) + margin;
@@ -454,6 +456,7 @@ class Layout {
   };
   TankPlan plan_;
   Parameters p_;
+  Cut cut_;
   TankLattice<dim> lattice_;
   int layers_;
   PlacesBySurfaces<dim> by_surfaces_;

@@ -26,6 +26,7 @@ struct TankPlan {
   double depth = 0.0;                      ///< bed at -depth, still water at 0 [m]
   double top = 0.0;                        ///< of the walls [m]
   std::array<bool, 2> periodic{}, open{};  ///< sides along x, along y
+  bool mirrored = false;                   ///< in 3-D: no wall at the lower y, which is a plane of symmetry
   bool over_edge_open = false;             ///< any particle may leave over the walls' upper edge
   std::vector<std::array<double, 2>> bed;  ///< (x, z), x increasing; empty: flat
   struct Block {

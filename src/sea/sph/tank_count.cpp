@@ -31,7 +31,7 @@ class Counting {
   }
   double places() const {
     double all = 1.0;
-    for (int k = 0; k < dim; ++k) all *= double(lattice_.count[k]) + 2.0 * layers_;
+    for (int k = 0; k < dim; ++k) all *= double(lattice_.count[k]) + (k == 1 && plan_.mirrored ? 1.0 : 2.0) * layers_;
     return all;
   }
 
@@ -66,7 +66,7 @@ class Counting {
   void count_columns(TankCount& result) const {
     const int behind = plan_.paddle ? layers_ + int(std::ceil(plan_.paddle_reach / lattice_.edge[0])) + 1 : layers_;
     const int low = walled(0) ? -behind : 0, high = lattice_.count[0] + (walled(0) ? layers_ : 0);
-    const double inside = places_across(-far, far), beside = dim == 3 && walled(1) ? 2.0 * layers_ : 0.0;
+    const double inside = places_across(-far, far), beside = dim == 3 && walled(1) ? (plan_.mirrored ? 1.0 : 2.0) * layers_ : 0.0;
     const double deep = layers_ * p_.spacing;
     std::vector<TankPlan::Block> water = plan_.water;
     if (water.empty()) water.push_back({Eigen::Vector3d::Constant(-far), {far, far, 0.0}});
@@ -146,7 +146,7 @@ class Counting {
 
   /// As many particles as stand for its volume, and no water where they are.
   void count_body(const TankPlan::Body& body, TankCount& result) const {
-    constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
+    const Cut cut = cut_of<dim>(plan_);
     constexpr double points = 600.0;
     double volume = 0.0;
     for (const BodyShape& shape : body.shapes) volume += volume_of(shape, cut);

@@ -206,7 +206,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::set_walls() {
   auto& r = recording_;
   if (!sweeps_.boundary) return;
-  std::vector<std::vector<int>> around(std::size_t(r.sea.columns.groups()));
+  std::vector<std::vector<int>> around(std::size_t(r.sea.columns.groups_and_images()));
   for (int g = 0; g < r.sea.columns.groups(); ++g)
     r.sea.columns.for_forward(g, [&](const Neighbour<dim>& near) {
       around[std::size_t(g)].push_back(near.group), around[std::size_t(near.group)].push_back(g);

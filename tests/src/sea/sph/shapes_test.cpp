@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/sea/sph/body_shapes.hpp"
+
 using namespace spindrift;
 using namespace spindrift::sph;
 
@@ -50,4 +52,26 @@ TEST_CASE("particles of a body keep apart and balance about its centre", "[sph][
     for (const auto& x : points) centre += x / double(points.size());
     CHECK(centre.norm() < 0.05 * d);
   }
+}
+
+TEST_CASE("half of a symmetrical body is filled to half its volume, as far from its image as from each other", "[sph][fast]") {
+  const double d = 0.1;
+  using Body = std::vector<BodyShape>;
+  const Body body = GENERATE(Body{Sphere{{0.2, 0.0, 0.1}, 0.5}}, Body{Cylinder{{0, 0, -1}, {0, 0, 0.5}, 0.45, 0.45}},
+                             Body{Cylinder{{-1, 0, 0}, {0.5, 0, 0.3}, 0.4, 0.3}},
+                             Body{Cylinder{{0.1, -0.7, 0}, {0.1, 0.7, 0}, 0.35, 0.35}}, Body{Box{{0.1, 0, 0}, {0.6, 0.5, 0.4}}},
+                             Body{Cylinder{{0, 1, -1}, {0, 1, 0.5}, 0.4, 0.4}, Cylinder{{0, -1, -1}, {0, -1, 0.5}, 0.4, 0.4}});
+  const Points points = fill_body(body, d, Cut::half);
+  double volume = 0.0, across = 1e300;
+  for (const BodyShape& shape : body) volume += volume_of(shape, Cut::half);
+  CHECK(double(points.size()) * d * d * d == Approx(volume).epsilon(0.01));
+  for (const auto& x : points) across = std::min(across, x.y());
+  CHECK(2.0 * across > 0.5 * d);
+  CHECK(nearest(points) > 0.5 * d);
+  double along = 0.0;  // of the whole fill, whose centre is that of both halves
+  for (const auto& x : points) along += x.x() / double(points.size());
+  double whole = 0.0;
+  const Points all = fill_body(body, d, Cut::space);
+  for (const auto& x : all) whole += x.x() / double(all.size());
+  CHECK(along == Approx(whole).margin(0.1 * d));
 }

@@ -376,3 +376,38 @@ TEST_CASE("a lattice of 1e12 places is counted in a moment", "[sea][sph][fast]")
   CHECK(counted.walls == Approx(2.0 * (20000.0 * 10000.0 + 60000.0 * 7500.0)).epsilon(1e-3));
   CHECK(lattice_places<3>(plan, p) == Approx(1.5e12).epsilon(0.01));
 }
+
+TEST_CASE("beside a plane of symmetry half a tank has half the particles, no wall and half its bodies", "[sea][sph][fast]") {
+  TankPlan plan = tank(3.0, 2.0, 1.0), half = plan;
+  Parameters p = particles(0.1, 1.0), of_half = p;
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.4}}, {}}};
+  plan.bodies[0].motion.position = {1.5, 1.0, -0.1};
+  half.bodies = plan.bodies, half.y = {1.0, 2.0}, half.mirrored = true;
+  check_count<3>(half, p, 0.01, 0.0);
+  const auto whole = lay_out<3>(plan, p), t = lay_out<3>(half, of_half);
+  CHECK(2.0 * double(t.water) == Approx(double(whole.water)).margin(2.0));
+  CHECK(2 * t.walls == whole.walls);
+  CHECK(2.0 * double(t.body_points[0].size()) == Approx(double(whole.body_points[0].size())).margin(2.0));
+  CHECK(of_half.mass_factor == p.mass_factor);
+  CHECK(t.domain.mirrored);
+  CHECK(t.domain.low[1] == 1.0);
+  for (const Seed<3>& seed : t.seeds.all()) REQUIRE(seed.position[1] > 1.0);
+  // The water beside the body stands as evenly as away from the plane: images push too.
+  const KernelWendland<3> kernel(1.5 * 0.1);
+  std::vector<std::array<double, 3>> all;
+  for (const Seed<3>& seed : t.seeds.all())
+    all.push_back(seed.position), all.push_back({seed.position[0], 2.0 - seed.position[1], seed.position[2]});
+  double least = 1e300, most = 0.0;
+  for_owner(t, water_owner, [&](const Seed<3>& seed) {
+    const auto& x = seed.position;
+    if (std::hypot(x[0] - 1.5, x[2] + 0.1) > 0.7 || x[1] > 1.2 || x[2] > -0.4) return;
+    double sum = 0.0;
+    for (const auto& y : all) {
+      const double r2 = std::pow(x[0] - y[0], 2) + std::pow(x[1] - y[1], 2) + std::pow(x[2] - y[2], 2);
+      if (r2 < std::pow(2.0 * kernel.h(), 2)) sum += 1e-3 * kernel.value(r2);
+    }
+    least = std::min(least, sum), most = std::max(most, sum);
+  });
+  CHECK(least > 0.93);
+  CHECK(most < 1.07);
+}
