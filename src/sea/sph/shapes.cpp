@@ -122,16 +122,23 @@ Points points_in_sphere(double radius, double spacing) {
 
 Points points_in_half_sphere(double radius, double spacing) {
   const int shells = whole_spacings(radius, spacing);
-  const double width = radius / shells, golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  const double width = radius / shells;
   Points points;
   for (int shell = 0; shell < shells; ++shell) {
     const double volume = 2.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
     const int n = std::max(1, int(std::lround(volume - double(points.size()))));
     const double r = centroid_of_cone(width * shell, width * (shell + 1), 2 * n);
-    for (int k = 0; k < n; ++k) {
-      const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z), turns = 0.5 + golden * k;
-      const double angle = pi * (turns - std::floor(turns));
-      points.push_back(r * Eigen::Vector3d(ring * std::cos(angle), ring * std::sin(angle), z));
+    // Belts as wide as points are apart, each with the area of a whole number of points; none comes near the plane.
+    const int belts = std::max(1, int(std::lround(std::sqrt(0.5 * pi * n))));
+    int placed = 0;
+    for (int belt = 0; belt < belts; ++belt) {
+      const int count = int(std::lround(0.5 * n * (1.0 - std::cos(pi * (belt + 1) / belts)))) - placed;
+      const double z = 1.0 - (2.0 * placed + count) / n, ring = std::sqrt(1.0 - z * z);
+      for (int k = 0; k < count; ++k) {
+        const double angle = pi * (k + 0.5) / count;
+        points.push_back(r * Eigen::Vector3d(ring * std::cos(angle), ring * std::sin(angle), z));
+      }
+      placed += count;
     }
   }
   return points;
