@@ -25,7 +25,7 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max(), second_
 
 // Of the one request that lives; a signal handler can reach nothing else.
 std::atomic<bool> lives = false;
-std::atomic<int> cause = 0;
+std::atomic<int> cause = 0, later = 0;
 std::atomic<std::int64_t> caught_ns = 0, limit_ns = never, margin_ns = 0, looked_ns = 0;
 std::string watched;  // written before threads look
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
@@ -105,7 +105,11 @@ void StopRequest::give_signals_back() { handle_all(SIG_DFL); }
 
 void StopRequest::keep_margin(double seconds) { margin_ns = std::int64_t(seconds * 1e9); }
 
+StopRequest::Later::Later() { ++later; }
+StopRequest::Later::~Later() { --later; }
+
 bool StopRequest::asked() {
+  if (later.load(std::memory_order_relaxed) > 0) return false;
   if (cause.load(std::memory_order_relaxed) != 0) return true;
   if (limit_ns.load(std::memory_order_relaxed) == never && watched.empty()) return false;
   const std::int64_t now = now_ns();

@@ -40,6 +40,13 @@ class StopRequest {
 
   /// Whether this process knows of a request, to be summed over the ranks by who acts on it. Cheap; from any thread.
   static bool asked();
+  /// While one lives asked() is false: work that has nothing to go back to is done to its end.
+  struct Later {
+    Later();
+    ~Later();
+    Later(const Later&) = delete;
+    Later& operator=(const Later&) = delete;
+  };
   /// For work in which ranks do not meet: throws StopAsked where this process knows of a request. See give_up_together.
   static void give_up_if_asked();
   /// The signal that this process was sent, or has heard of from another rank; 0 where there is none.

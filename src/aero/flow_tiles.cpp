@@ -6,17 +6,16 @@
 #include <vector>
 
 #include "runtime/mpi/stop_request.hpp"
-#include "runtime/partition/partition.hpp"
 #include "src/aero/flow/poisson.hpp"
 #include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/tile_balance.hpp"
 
 namespace spindrift::aero {
 
 std::unique_ptr<GridStore> flow_tiles(const MultiBlockGrid& grid, Tiling tiling, const FlowOptions& o,
-                                      const runtime::World& world, bool moves) {
-  std::vector<int> ranks(std::size_t(tiling.size()), 0);
-  if (world.size > 1) ranks = runtime::partition_blocks(tile_graph(tiling), {.ranks = world.size}).rank_of_block;
-  auto store = std::make_unique<GridStore>(std::move(tiling), std::move(ranks), world.rank);
+                                      const runtime::World& world, bool moves, std::vector<int> rank_of_tile) {
+  if (rank_of_tile.empty()) rank_of_tile = ranks_by_cells(tiling, world.size);
+  auto store = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), world.rank);
   runtime::give_up_together(world.comm, [&] { store->build_all(grid, moves); });
   std::vector<std::string> no_slip;
   for (const PatchOptions& b : o.boundaries)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/flow_options.hpp"
@@ -10,8 +11,8 @@
 
 namespace spindrift::aero {
 
-/// Spread over the ranks of `world`. `moves`: whether the grid will. Collective.
+/// Spread over the ranks of `world`, by their cells where `rank_of_tile` is empty. `moves`: whether the grid will. Collective.
 std::unique_ptr<GridStore> flow_tiles(const MultiBlockGrid& grid, Tiling tiling, const FlowOptions& options,
-                                      const runtime::World& world, bool moves = false);
+                                      const runtime::World& world, bool moves = false, std::vector<int> rank_of_tile = {});
 
 }  // namespace spindrift::aero

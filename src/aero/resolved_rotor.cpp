@@ -9,9 +9,9 @@
 
 #include "kernels/base/constants.hpp"
 #include "runtime/mpi/stop_request.hpp"
-#include "runtime/partition/partition.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/wall_distance.hpp"
+#include "src/aero/tile_balance.hpp"
 
 namespace spindrift::aero {
 
@@ -64,7 +64,7 @@ RotorPose hub_pose(const RotorOptions& rotor) {
 }
 
 ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int rank, int chunk,
-                             std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told)
+                             std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told, std::vector<int> rank_of_tile)
     : setup_(setup), made_(made ? std::move(made) : made_rotor_grid(setup, MPI_COMM_SELF, told)), start_(hub_pose(setup.rotor)) {
   const RotorOptions& rotor = setup.rotor;
 
@@ -78,8 +78,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   const FlowOptions flow = with_default_patches(setup.flow, placed);
   std::vector<PatchCondition> conditions = patch_conditions(flow, tiling);
   if (!setup.ranks_may_idle) require_ranks(std::size_t(tiling.size()), ranks);
-  std::vector<int> rank_of_tile(std::size_t(tiling.size()), 0);
-  if (ranks > 1) rank_of_tile = runtime::partition_blocks(tile_graph(tiling), {.ranks = ranks}).rank_of_block;
+  if (rank_of_tile.empty()) rank_of_tile = ranks_by_cells(tiling, ranks);
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);
   make_nodes();
   fill_wall_distance(*store_, wall_surface(placed_walls(), placed.connections),
@@ -101,10 +100,12 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
 }
 
 std::unique_ptr<ResolvedRotor> ResolvedRotor::on(const runtime::World& world, const ResolvedRotorSetup& setup, int chunk,
-                                                 std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told) {
+                                                 std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told,
+                                                 std::vector<int> rank_of_tile) {
   std::unique_ptr<ResolvedRotor> rotor;
-  runtime::give_up_together(
-      world.comm, [&] { rotor = std::make_unique<ResolvedRotor>(setup, world.size, world.rank, chunk, std::move(made), told); });
+  runtime::give_up_together(world.comm, [&] {
+    rotor = std::make_unique<ResolvedRotor>(setup, world.size, world.rank, chunk, std::move(made), told, std::move(rank_of_tile));
+  });
   return rotor;
 }
 

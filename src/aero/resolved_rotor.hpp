@@ -50,13 +50,16 @@ class ResolvedRotor {
  public:
   /// `chunk`: pseudo-steps that one run of a steady march takes at most; 0: as many as the scene allows.
   /// `made`: the grid of this scene, by a setup with the same walls; where there is none, this rank looks through it alone.
+  /// `rank_of_tile`: where none are given tiles are shared out by their cells.
   /// Throws runtime::StopAsked, on this rank alone, where it is asked to stop meanwhile.
   explicit ResolvedRotor(const ResolvedRotorSetup& setup, int ranks = 1, int rank = 0, int chunk = 0,
-                         std::shared_ptr<const MadeRotorGrid> made = nullptr, const GridProgress& told = {});
+                         std::shared_ptr<const MadeRotorGrid> made = nullptr, const GridProgress& told = {},
+                         std::vector<int> rank_of_tile = {});
   /// The same on all ranks of the world, collectively: throws runtime::StopAsked on all alike where they are asked to stop
   /// meanwhile.
   static std::unique_ptr<ResolvedRotor> on(const runtime::World& world, const ResolvedRotorSetup& setup, int chunk,
-                                           std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told = {});
+                                           std::shared_ptr<const MadeRotorGrid> made, const GridProgress& told = {},
+                                           std::vector<int> rank_of_tile = {});
   ResolvedRotor(const ResolvedRotor&) = delete;
   ResolvedRotor& operator=(const ResolvedRotor&) = delete;
 

@@ -37,13 +37,7 @@ class ActuatorAir final : public MarchingAir {
   ActuatorAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world)
       : MarchingAir(floating, now, world), turbine_(aero::read_turbine(scenario().rotor.turbine)) {
     loads_.computed.blades.resize(scenario().aero.model == "actuator_line" ? std::size_t(turbine_.blades) : 0);
-    const aero::FlowOptions& flow = *scenario().aero.flow;
-    const aero::MultiBlockGrid grid = aero::flow_grid(flow);
-    for (const aero::Block& block : grid.blocks) cells_ += double(block.ni) * block.nj * block.nk;
-    aero::Tiling tiling = aero::flow_tiling(flow, grid);
-    aero::require_ranks(std::size_t(tiling.size()), world.size);
-    conditions_ = aero::patch_conditions(flow, tiling);
-    store_ = aero::flow_tiles(grid, std::move(tiling), flow, world);
+    make_store();
   }
 
   aero::RotorLoad begin(double t, const aero::RotorState& now) override {
@@ -55,7 +49,8 @@ class ActuatorAir final : public MarchingAir {
     }
     const aero::TileStates steady =
         scenario().start.air_steps > 0 ? settled([this](int retry) { return settled_air(retry); }) : aero::TileStates();
-    make();
+    make_timed();
+    tell_size();
     if (automatic()) choose();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
     return update_load_on_bodies();
@@ -71,6 +66,10 @@ class ActuatorAir final : public MarchingAir {
     solver_->restart().restore(snapshots_[slot]->air);
     loads_ = snapshots_[slot]->loads;
   }
+  void restore(const io::CheckpointReader& file) override {
+    MarchingAir::restore(file);
+    tell_size();
+  }
 
  private:
   struct Saved {
@@ -78,7 +77,18 @@ class ActuatorAir final : public MarchingAir {
     Loads loads;
   };
 
-  /// The rotor where the run begins, in the wind as it comes.
+  /// Grid and tiles.
+  void make_store() {
+    const aero::FlowOptions& flow = *scenario().aero.flow;
+    const aero::MultiBlockGrid grid = aero::flow_grid(flow);
+    cells_ = 0.0;
+    for (const aero::Block& block : grid.blocks) cells_ += double(block.ni) * block.nj * block.nk;
+    aero::Tiling tiling = aero::flow_tiling(flow, grid);
+    aero::require_ranks(std::size_t(tiling.size()), world_.size);
+    conditions_ = aero::patch_conditions(flow, tiling);
+    store_ = aero::flow_tiles(grid, std::move(tiling), flow, world_, false, rank_of_tile_);
+  }
+  /// The rotor where it is, in the wind as it comes.
   void make() override {
     aero::FlowOptions flow = *scenario().aero.flow;
     flow.preconditioner = preconditioner_;
@@ -86,9 +96,21 @@ class ActuatorAir final : public MarchingAir {
     solver_ = own_solver_.get();
     actuator_ = actuator_of(scenario().aero, motion());
     solver_->set_body_force(actuator_);
+    place_wind();
+  }
+  void tell_size() {
     log_lines_.push_back(fmt::format("air: {} cells in {} tiles, {:.0f} MB; {}", solver_->cells(), store_->tiling().size(),
                                      1e-6 * double(solver_->bytes() + store_->bytes()) * world_.size, actuator_->description()));
-    place_wind(), tell_wind();
+    tell_wind();
+  }
+  void make_anew(const Send& send) override {
+    snapshots_ = {};
+    aero::FlowSnapshot state = solver_->restart().snapshot();
+    solver_ = nullptr, actuator_.reset(), own_solver_.reset(), store_.reset();
+    state = send(std::move(state));
+    make_store();
+    make();
+    solver_->restart().restore(state);
   }
   void move() override { actuator_->place(motion()); }
   ComputedLoads computed() const override {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
@@ -35,9 +36,9 @@ std::optional<std::string> choice_in(const io::CheckpointReader& file) {
 }
 
 /// Throws NumericalFailure where the step to `t` failed or too many steps have not converged, runtime::StopAsked where it was
-/// given up; a first step that was spent goes to `log_lines`.
+/// given up; a first step that was spent goes to `log_lines`, once.
 void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& floating, double t,
-                       std::vector<std::string>& log_lines) {
+                       std::vector<std::string>& log_lines, bool& told_spent) {
   const aero::FlowOptions& flow = *floating.scenario().aero.flow;
   const aero::MarchState& march = solver.march();
   if (march.verdict == aero::Verdict::stopped) throw runtime::StopAsked();
@@ -46,7 +47,7 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
                                        march.why, march.steps, march.cfl, solver.judgement().trouble(), flow.cfl_max),
                            "aero/rotor", long(solver.time_steps()), t);
   const long windows = floating.timeline().windows(), unconverged = march.unconverged;
-  if (march.spent && unconverged == 1)
+  if (march.spent && unconverged == 1 && !std::exchange(told_spent, true))
     log_lines.push_back(
         fmt::format("warning: air: the step to t = {:g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of "
                     "that at its start, {:.2g} is asked for",
@@ -59,6 +60,8 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
                     t, unconverged, march.ended, flow.max_pseudo_steps, flow.drop, flow.unconverged_share, march.balance_drop()),
         "aero/rotor", long(solver.time_steps()), t);
 }
+
+double wall_clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
@@ -92,9 +95,45 @@ Tasks MarchingAir::record(runtime::Graph& graph) {
 }
 
 aero::RotorLoad MarchingAir::load_at_end() {
-  require_good_step(*solver_, floating_, t_, log_lines_);
+  require_good_step(*solver_, floating_, t_, log_lines_, told_spent_);
   loads_.computed = computed();
   return update_load_on_bodies();
+}
+
+void MarchingAir::make_timed() {
+  const double begin_s = wall_clock_s();
+  make();
+  made_s_ = std::max(made_s_, wall_clock_s() - begin_s);
+}
+
+std::optional<aero::TileMove> MarchingAir::better_ranks(const Measured& measured) {
+  // What knows ranks would make results follow the clock.
+  if (world_.size == 1 || solver_->knows_ranks() || scenario().aero.flow->wall_distance == "poisson") return {};
+  return aero::better_ranks(solver_->grid(), aero::seconds_of_tiles(solver_->grid(), measured.executors),
+                            {.move_s = made_s_,
+                             .ahead = double(measured.left) / double(std::max<std::int64_t>(1, measured.windows)),
+                             .threads = measured.executors.empty() ? 1 : measured.executors.front()->threads()},
+                            world_.comm);
+}
+
+void MarchingAir::move_tiles(const aero::TileMove& move) {
+  const runtime::Span span("aero/balance");
+  const runtime::StopRequest::Later to_the_end;  // between two solvers there is no state to save
+  const double begin_s = wall_clock_s();
+  const aero::GridStore& grid = solver_->grid();
+  const std::vector<int> owned(grid.owned().begin(), grid.owned().end());
+  const std::vector<int> before(grid.rank_of_tile().begin(), grid.rank_of_tile().end());
+  rank_of_tile_ = move.rank_of_tile;
+  make_anew([&](aero::FlowSnapshot mine) { return aero::send_tiles(std::move(mine), owned, rank_of_tile_, world_.comm); });
+  if (output_) output_->follow(*solver_);
+  const double took_s = wall_clock_s() - begin_s;
+  made_s_ = std::max(made_s_, took_s);
+  std::size_t moved = 0;
+  for (std::size_t t = 0; t < before.size(); ++t) moved += std::size_t(before[t] != rank_of_tile_[t]);
+  log_lines_.push_back(fmt::format(
+      "t = {:g} s: air: {} of {} tiles go to other ranks, by the time that each took: the most loaded rank has {:.3g} "
+      "of the mean, it had {:.3g}; {:.2g} s",
+      t_, moved, before.size(), move.after, move.before, took_s));
 }
 
 aero::RotorLoad MarchingAir::update_load_on_bodies() {
@@ -133,7 +172,7 @@ void MarchingAir::restore(const io::CheckpointReader& file) {
     preconditioner_ = *named;
     log_lines_.push_back(fmt::format("air: preconditioner \"{}\" (as before the restart)", *named));
   }
-  make();
+  make_timed();
   AirFile(*solver_, world_).read(file);
   if (automatic()) choose();  // the run that left it had named one
   loads_ = {computed_loads_in(file, int(loads_.computed.blades.size())), rotor_load_in(file).load};

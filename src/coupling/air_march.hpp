@@ -3,6 +3,7 @@
 // which derive from it. Tested in tests/coupled. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ class MarchingAir : public AirSide {
   Tasks record(runtime::Graph& graph) final;
   void forget_tasks() final { solver_->forget_graphs(); }
   aero::RotorLoad load_at_end() override;
+  std::optional<aero::TileMove> better_ranks(const Measured& measured) final;
+  void move_tiles(const aero::TileMove& move) final;
   void ease(int retry) final;
   const aero::RotorLoad* written() const final { return &loads_.on_bodies; }
   std::vector<SavedArray> saved() const final;
@@ -42,8 +45,14 @@ class MarchingAir : public AirSide {
   /// `now`: of the rotor at the start. loads_.computed is to have as many blades as are told one by one.
   MarchingAir(const FloatingSystem& floating, const aero::RotorState& now, const runtime::World& world);
 
-  /// solver_, in the wind as it comes.
+  /// solver_, in the wind as it comes, on the tiles that rank_of_tile_ says.
   virtual void make() = 0;
+  /// make() by the clock.
+  void make_timed();
+  /// solver_ anew, with its state as `send` returns it for other tiles; the one before is gone first: two would not fit where one
+  /// does. Snapshots are of no use afterwards.
+  using Send = std::function<aero::FlowSnapshot(aero::FlowSnapshot)>;
+  virtual void make_anew(const Send& send) = 0;
   /// The rotor goes where state_ has it at the end of the step.
   virtual void move() = 0;
   /// After a step.
@@ -77,6 +86,7 @@ class MarchingAir : public AirSide {
   aero::RotorState state_;
   Loads loads_;
   std::string preconditioner_;          ///< or what "auto" became
+  std::vector<int> rank_of_tile_;       ///< none: by their cells
   aero::FlowSolver* solver_ = nullptr;  ///< made by begin() or restore()
   std::vector<std::string> log_lines_;
 
@@ -84,6 +94,8 @@ class MarchingAir : public AirSide {
   aero::ChangingWind wind_;
   const io::RunDirectory* directory_ = nullptr;
   std::unique_ptr<AirOutput> output_;
+  double made_s_ = 0.0;      ///< that make() took at most
+  bool told_spent_ = false;  ///< that a step spent its pseudo-steps
 };
 
 /// Of the air in a coupled window [s].

@@ -20,7 +20,7 @@ bool on_wall(const aero::FlowSolver& solver, const aero::TileBoundary& b) {
 }  // namespace
 
 AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::filesystem::path& folder, Choice choice)
-    : solver_(solver) {
+    : solver_(&solver) {
   const aero::Tiling& tiling = solver.grid().tiling();
   std::vector<io::GridBlock> blocks;
   for (const aero::Tile& tile : tiling.tiles)
@@ -66,13 +66,13 @@ struct FieldCopy {
 }  // namespace
 
 Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
-  const int carried = solver_.tiles().empty() ? 0 : solver_.tiles()[0].turbulence;
-  const gas::IdealGas& gas = solver_.setting().gas;
+  const int carried = solver_->tiles().empty() ? 0 : solver_->tiles()[0].turbulence;
+  const gas::IdealGas& gas = solver_->setting().gas;
   const auto copy = std::make_shared<FieldCopy>();
   auto& kept = copy->arrays;
   auto& values = copy->values;
-  kept.reserve(solver_.tiles().size() * std::size_t(4 + carried));
-  for (const aero::FlowTile& t : solver_.tiles()) {
+  kept.reserve(solver_->tiles().size() * std::size_t(4 + carried));
+  for (const aero::FlowTile& t : solver_->tiles()) {
     const std::size_t cells = std::size_t(t.box.count());
     const auto array_of = [&](std::size_t count) -> std::vector<double>& {
       auto& array = kept.emplace_back();
@@ -108,15 +108,15 @@ Writing AirOutput::copy_volume(std::int64_t number, double time_s) const {
 }
 
 Writing AirOutput::copy_walls(std::int64_t number, double time_s) const {
-  const aero::FlowSetting& s = solver_.setting();
+  const aero::FlowSetting& s = solver_->setting();
   const double q = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed;
   const auto copy = std::make_shared<FieldCopy>();
-  for (const aero::FlowTile& t : solver_.tiles()) {
-    const std::vector<aero::WallPoint> points = solver_.wall_points(t);
+  for (const aero::FlowTile& t : solver_->tiles()) {
+    const std::vector<aero::WallPoint> points = solver_->wall_points(t);
     std::size_t at = 0;
     int block = first_block_[std::size_t(t.index)];
     for (const aero::FlowBoundary& b : t.boundaries) {
-      if (!on_wall(solver_, b.where)) continue;
+      if (!on_wall(*solver_, b.where)) continue;
       std::vector<double> corners, pressure, cp, cf, y_plus;
       const int d = aero::direction_of(b.where.side), extent[3] = {t.box.ni, t.box.nj, t.box.nk};
       const auto [along_a, along_b] = aero::along(b.where.side);

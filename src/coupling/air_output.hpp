@@ -26,6 +26,8 @@ class AirOutput {
   };
   /// The solver is to outlive it. Collective over `comm`.
   AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::filesystem::path& folder, Choice choice);
+  /// From now on the flow is that of another solver on the same tiles.
+  void follow(const aero::FlowSolver& solver) { solver_ = &solver; }
   /// A copy of the flow as it is, to be written while this object lives.
   Writing copy(std::int64_t number, double time_s) const;
 
@@ -33,7 +35,7 @@ class AirOutput {
   Writing copy_volume(std::int64_t number, double time_s) const;
   Writing copy_walls(std::int64_t number, double time_s) const;
 
-  const aero::FlowSolver& solver_;
+  const aero::FlowSolver* solver_;
   std::unique_ptr<io::GridFields> volume_, walls_;
   std::vector<int> first_block_;  ///< of walls_, by tile
 };

@@ -6,12 +6,16 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "runtime/executor/executor.hpp"
 #include "runtime/graph/graph.hpp"
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/rotor_loads.hpp"
+#include "src/aero/tile_balance.hpp"
 #include "src/coupling/output_task.hpp"
 #include "src/coupling/saved_array.hpp"
 #include "src/coupling/tasks.hpp"
@@ -46,6 +50,17 @@ class AirSide {
   virtual void ease(int /*retry*/) {}
   /// The load to be written to history, where it is not that of the rotor's present state.
   virtual const aero::RotorLoad* written() const { return nullptr; }
+
+  // Between windows, before their snapshots: tiles of resolved air go to other ranks where that pays; results stay, bit for bit.
+  /// What the tasks of this rank took: in executors that have replayed so many windows; so many are still to come.
+  struct Measured {
+    std::span<const runtime::Executor* const> executors;
+    std::int64_t windows, left;
+  };
+  /// A move that is worth it, on all ranks alike. Collective.
+  virtual std::optional<aero::TileMove> better_ranks(const Measured&) { return {}; }
+  /// Makes it, once executors are gone and forget_tasks() was called; tasks are to be recorded again. Collective.
+  virtual void move_tiles(const aero::TileMove&) {}
 
   /// Saves the state to be restored: of a window, and of the piece of it that is being iterated.
   enum Snapshot { window, piece };

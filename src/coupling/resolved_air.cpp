@@ -94,12 +94,12 @@ class ResolvedAir final : public MarchingAir {
     const bool settles = start.air_steps > 0;
     if (automatic()) {  // in the wind as it comes, before anything settles: so a scene that names the outcome runs alike
       const std::shared_ptr<const aero::MadeRotorGrid> made = grid();
-      make();
+      make_timed();
       choose();
       if (settles) solver_ = nullptr, rotor_.reset(), grid_ = made;
     }
     const aero::TileStates steady = settles ? settled([this](int retry) { return settled_air(retry); }) : aero::TileStates();
-    if (!rotor_) make();
+    if (!rotor_) make_timed();
     tell_size();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
     // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to
@@ -139,7 +139,7 @@ class ResolvedAir final : public MarchingAir {
   void make() override {
     setup_.flow.preconditioner = preconditioner_;
     (void)grid();
-    rotor_ = aero::ResolvedRotor::on(world_, setup_, 0, std::move(grid_), grid_progress());
+    rotor_ = aero::ResolvedRotor::on(world_, setup_, 0, std::move(grid_), grid_progress(), rank_of_tile_);
     solver_ = &rotor_->solver();
     solver_->start_uniform();
     place_at(state_, setup_.dt);
@@ -147,6 +147,14 @@ class ResolvedAir final : public MarchingAir {
     solver_->record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
     place_wind();
+  }
+  void make_anew(const Send& send) override {
+    snapshots_ = {};
+    aero::ResolvedRotor::Snapshot state = rotor_->snapshot();
+    solver_ = nullptr, rotor_.reset();
+    state.air = send(std::move(state.air));
+    make();
+    rotor_->restore(state);
   }
   void move() override { rotor_->move_to({frame_.pose(state_), changes(state_)}); }
   ComputedLoads computed() const override { return computed_loads(*rotor_); }

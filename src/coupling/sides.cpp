@@ -3,6 +3,7 @@
 
 #include <array>
 #include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +113,27 @@ class SharedAir final : public AirSide {
     if (own_) own_->ease(retry);
   }
   const aero::RotorLoad* written() const override { return writes_ ? &results_.load : nullptr; }
+
+  std::optional<aero::TileMove> better_ranks(const Measured& measured) override {
+    std::optional<aero::TileMove> move;
+    bool moves = false;
+    broadcast_from(
+        parts_, air_part,
+        [&](Packer& to) {
+          move = own_->better_ranks(measured);
+          to.put_one(move.has_value());
+        },
+        [&](Unpacker& from) { moves = from.one<bool>(); });
+    return moves && !move ? aero::TileMove() : move;
+  }
+  void move_tiles(const aero::TileMove& move) override {
+    const Results results = results_;
+    share_results([&] {
+      own_->move_tiles(move);
+      return results.load;
+    });
+    results_ = results;  // of the last step, which a solver made anew has not
+  }
 
   void take_snapshot(Snapshot slot) override {
     snapshots_[slot] = results_;

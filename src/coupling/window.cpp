@@ -60,7 +60,8 @@ void CoupledWindow::begin(const bodies::BodiesState& state) {
 
 WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   const std::int64_t begin = runtime::Clock::now_ns();
-  sides_.bodies().balance();
+  const Timeline& timeline = floating_.timeline();
+  sides_.balance(state.tick / timeline.steps_per_window(), timeline.windows());
   sides_.take_snapshot(AirSide::window);
   totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
   sides_.begin_window(retry);

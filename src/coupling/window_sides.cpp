@@ -8,6 +8,16 @@
 
 namespace spindrift::coupling {
 
+namespace {
+
+/// Whether tiles of the air are weighed before this window: soon, then now and then. Whatever the clock, ranks and restarts.
+constexpr bool weighs_tiles(std::int64_t window) {
+  constexpr std::int64_t every = 16;
+  return window % every == 0 ? window > 0 : window == 2 || window == 4 || window == 8;
+}
+
+}  // namespace
+
 Vector not_finite(Eigen::Index rows) { return Vector::Constant(rows, std::numeric_limits<double>::quiet_NaN()); }
 
 WindowSides::WindowSides(FloatingSystem& floating, Sides sides, MPI_Comm comm, std::size_t records)
@@ -69,6 +79,16 @@ std::pair<bool, Vector> WindowSides::move_beside_air(bodies::BodiesState& state,
   return result;
 }
 
+void WindowSides::balance(std::int64_t window, std::int64_t windows) {
+  bodies_->balance();
+  if (!weighs_tiles(window)) return;
+  const std::vector<const runtime::Executor*> executors = tasks_.executors();
+  const std::optional<aero::TileMove> move = air_->better_ranks({executors, tasks_.windows(), windows - window});
+  if (!move) return;
+  tasks_.drop();
+  air_->move_tiles(*move);
+}
+
 void WindowSides::take_snapshot(AirSide::Snapshot slot) { air_->take_snapshot(slot), bodies_->take_snapshot(slot); }
 
 void WindowSides::return_to(AirSide::Snapshot slot, Run sides) {
@@ -79,6 +99,7 @@ void WindowSides::return_to(AirSide::Snapshot slot, Run sides) {
 
 void WindowSides::begin_window(int retry) {
   air_failure_ = bodies_failure_ = {};
+  tasks_.begin_window();
   air_->ease(retry), bodies_->ease(retry);
 }
 

@@ -30,6 +30,8 @@ class WindowSides {
   std::pair<bool, Vector> move_beside_air(bodies::BodiesState& state, std::int64_t end, double t, double dt,
                                           const std::function<Vector()>& motion);
 
+  /// Before the window of this number, of so many: blocks of both fluids go to other ranks where that pays.
+  void balance(std::int64_t window, std::int64_t windows);
   void take_snapshot(AirSide::Snapshot slot);
   /// What went wrong since is forgotten, but not that a side is to stop.
   void return_to(AirSide::Snapshot slot, Run sides);

@@ -28,7 +28,7 @@ WindowTasks::WindowTasks(AirSide& air, BodySide& bodies, OutputTask& output, MPI
     : air_(air), bodies_(bodies), output_(output), comm_(comm), options_(options) {}
 
 void WindowTasks::run(Run sides, const Exchange& exchange) {
-  if (has_bodies(sides) && bodies_.outdated()) drop();
+  if (has_bodies(sides) && bodies_.outdated()) drop(), begin_window();
   Program& program = programs_[std::size_t(sides)];
   if (!program) program = record(sides);
   exchange_ = &exchange;
@@ -67,12 +67,18 @@ WindowTasks::Program WindowTasks::record(Run sides) {
   return std::make_unique<runtime::Executor>(std::move(graph), options_);
 }
 
-/// Sides keep what their tasks refer to until all executors are gone.
 void WindowTasks::drop() {
   for (std::size_t m = 0; m < modules.size(); ++m) dropped_[m] = core_seconds(modules[m]);
-  programs_ = {};
+  programs_ = {}, windows_ = 0;
   air_.forget_tasks();
   bodies_.forget_tasks();
+}
+
+std::vector<const runtime::Executor*> WindowTasks::executors() const {
+  std::vector<const runtime::Executor*> all;
+  for (const Program& program : programs_)
+    if (program) all.push_back(program.get());
+  return all;
 }
 
 const runtime::Executor* WindowTasks::executor() const {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "runtime/executor/executor.hpp"
 #include "src/coupling/air_side.hpp"
@@ -38,6 +39,14 @@ class WindowTasks {
   /// before or after it.
   void run(Run sides, const Exchange& exchange = {});
 
+  /// A window begins.
+  void begin_window() { ++windows_; }
+  /// Executors that have replayed so many windows, this rank's since the last drop().
+  std::vector<const runtime::Executor*> executors() const;
+  std::int64_t windows() const { return windows_; }
+  /// Sides keep what their tasks refer to until all executors are gone: now they are, and sides may change.
+  void drop();
+
   /// The executor whose record covers most: that of both sides, else of one; null where none has run.
   const runtime::Executor* executor() const;
   /// Core-seconds of tasks whose labels begin so, on this rank.
@@ -47,7 +56,6 @@ class WindowTasks {
  private:
   using Program = std::unique_ptr<runtime::Executor>;
   Program record(Run sides);
-  void drop();
 
   AirSide& air_;
   BodySide& bodies_;
@@ -57,7 +65,7 @@ class WindowTasks {
   const Exchange* exchange_ = nullptr;  ///< of the present run
   std::array<Program, 3> programs_;     ///< by Run
   std::array<double, 2> dropped_{};     ///< core-seconds of executors that are gone: of the air, of the sea
-  std::int64_t wall_ns_ = 0;
+  std::int64_t wall_ns_ = 0, windows_ = 0;
 };
 
 }  // namespace spindrift::coupling

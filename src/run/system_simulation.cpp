@@ -282,6 +282,7 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
   }
   if (aero::BladedLibrary* library = library_of(floating_))
     for (const std::string& warning : library->take_warnings()) spdlog::warn("{}", warning);
+  write_log_lines();
   if (report.stopped) return {};
   log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (report.log.retries > 0)

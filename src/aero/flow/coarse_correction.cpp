@@ -74,6 +74,7 @@ struct CoarseCorrection final : IluAfterCoarse {
   TileGroups& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
   const TileGroups& of(const FlowTile& tile) const { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
+  bool knows_ranks() const override { return !direct(); }  // multigrid
   void attach(GridStore& grid, std::span<FlowTile> flow) override {
     const Tiling& tiling = grid.tiling();
     const auto groups_of = [this](const Tile& t) { return count_of(pieces_of(t, options_.group_cells)); };

@@ -86,6 +86,9 @@ class FlowSolver {
   std::string worst_cells(MPI_Comm comm) const { return aero::worst_cells(arrays_, system_, comm); }
   std::vector<WallPoint> wall_points(const FlowTile& tile) const { return residual_.wall_points(tile); }
 
+  /// Whether the flow's last bits depend on which rank has which tile.
+  bool knows_ranks() const { return system_.preconditioner().knows_ranks(); }
+
   std::size_t bytes() const { return arrays_.bytes(); }
   long cells() const { return arrays_.cells(); }  ///< of all ranks
   int unknowns() const { return mean_unknowns + residual_.model().equations; }

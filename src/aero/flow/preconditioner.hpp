@@ -50,6 +50,8 @@ class Preconditioner {
   /// Tasks that all ranks run together, as often, one at a time in a process.
   virtual void refresh_coarse_level(MPI_Comm) {}
   virtual void solve_coarse_level(MPI_Comm) {}
+  /// Whether the last bits depend on which rank has which tile; once attached.
+  virtual bool knows_ranks() const { return false; }
   /// Whether the coarse level had no solution since it was last made anew: what apply() gives is of no use then.
   virtual bool singular() const { return false; }
 

@@ -38,6 +38,7 @@ struct PressureAmg final : IluAfterCoarse {
   PressureTile& of(const FlowTile& tile) { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
   const PressureTile& of(const FlowTile& tile) const { return tiles[std::size_t(local[std::size_t(tile.index)])]; }
 
+  bool knows_ranks() const override { return true; }  // multigrid
   void attach(GridStore& grid, std::span<FlowTile> all) override {
     const Tiling& tiling = grid.tiling();
     numbering = number_points(grid, [](const Tile& t) { return int(t.count()); });

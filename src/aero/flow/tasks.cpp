@@ -4,8 +4,10 @@
 #include "src/aero/flow/tasks.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "src/aero/flow/halo.hpp"
@@ -106,6 +108,7 @@ struct MarchRecording : MarchParts {
   std::size_t owned() const { return arrays.tiles.size(); }
   FlowTile& tile(std::size_t n) const { return arrays.tiles[n]; }
   FlowTile& tile_of(int index) const { return arrays.owned(index); }
+  /// tile_of() reads it back.
   std::string of(const char* path, std::size_t n) const { return std::string(path) + "/" + std::to_string(tile(n).index); }
   /// A task for each owned tile.
   template <class UsesOf, class Work>
@@ -486,6 +489,14 @@ void record_march(Graph& graph, const MarchParts& parts, RecordedGraphs& recorde
     graph.loop("aero/step", {.min = 1, .max = 1, .urgency = 2}, [&] { pseudo_march(r, 2); });
   else
     pseudo_march(r, 0);
+}
+
+int tile_of(const Node& task) {
+  const std::string_view label = task.label, number = label.substr(label.rfind('/') + 1);
+  if (task.kind != NodeKind::task || task.module() != "aero" || label.find("/pack/") != label.npos) return -1;  // to a rank
+  int tile = -1;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), tile);
+  return error == std::errc() && end == number.data() + number.size() ? tile : -1;
 }
 
 void record_geometry(Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded) {

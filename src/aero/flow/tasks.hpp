@@ -35,6 +35,8 @@ struct RecordedGraphs {
 
 /// One march: a steady solution, or one physical step.
 void record_march(runtime::Graph& graph, const MarchParts& parts, RecordedGraphs& recorded);
+/// The tile that a recorded task works on, by its label; -1 where it is no tile's.
+int tile_of(const runtime::Node& task);
 /// What fills ghost volumes and centres from other ranks.
 void record_geometry(runtime::Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded);
 
