@@ -11,6 +11,7 @@ struct FlowSize {
   long cells = 0;
   double bytes = 0.0;                         ///< of solver and grid
   double bytes_each = 0.0;                    ///< besides on every rank: factors of a coarse level that all have
+  double bytes_of_output = 0.0;               ///< more while fields are written
   double bytes_of_checkpoint = 0.0;           ///< more while one is written
   double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };

@@ -38,6 +38,7 @@ struct ResolvedRotorSize {
   int sectors = 1, stations = 0;
   double bytes = 0.0;                ///< of solver, grid and the note of a window's start; of one note more per iterated window
   double bytes_each = 0.0;           ///< as FlowSize has it
+  double bytes_of_output = 0.0;      ///< more while fields are written
   double bytes_of_checkpoint = 0.0;  ///< while one is written
   double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };

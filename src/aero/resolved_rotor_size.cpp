@@ -39,10 +39,13 @@ struct Kind {
   int group_cells = 0, direct_groups = 0;
 };
 
-/// Of blocks: their tiles, and the groups of cells of a coarse correction.
+/// Of blocks: their tiles, the copy of their fields for a file, and the groups of cells of a coarse correction.
 struct Parts {
-  double bytes = 0.0, groups = 0.0;
-  Parts& operator+=(const Parts& more) { return bytes += more.bytes, groups += more.groups, *this; }
+  double bytes = 0.0, output = 0.0, groups = 0.0;
+  Parts& operator+=(const Parts& more) {
+    bytes += more.bytes, output += more.output, groups += more.groups;
+    return *this;
+  }
 };
 
 Kind kind_of(const FlowOptions& o) {
@@ -98,7 +101,7 @@ Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
     size[d] = (n[d] + pieces - 1) / pieces, tiles *= double(n[d]) / size[d];
     if (kind.group_cells > 0) groups_of_tile *= (size[d] + kind.group_cells - 1) / kind.group_cells;
   }
-  return {tiles * (tile_bytes(kind, size[0], size[1], size[2]) + output_bytes(kind, size[0], size[1], size[2])),
+  return {tiles * tile_bytes(kind, size[0], size[1], size[2]), tiles * output_bytes(kind, size[0], size[1], size[2]),
           tiles * groups_of_tile};
 }
 
@@ -149,6 +152,7 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
   Parts sector;
   for (const std::array<int, 3>& block : blocks_of_sector(spec)) sector += parts_of_block(kind, block);
+  size.bytes_of_output = size.sectors * sector.output;
   size.bytes = size.sectors * sector.bytes + (kind.moving ? state : 0.0);
   add_coarse_level(size, kind, size.sectors * sector.groups);
   size.bytes_of_checkpoint = state;
@@ -168,7 +172,7 @@ FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
     size.bytes += 3.0 * sizeof(double) * double(b.ni + 1) * (b.nj + 1) * (b.nk + 1);  // nodes of the grid as read or made
   }
   // The coarser grids that a steady march begins on are gone before the fine one's matrix is first written: they add nothing.
-  size.bytes += parts.bytes;
+  size.bytes += parts.bytes, size.bytes_of_output = parts.output;
   add_coarse_level(size, kind, parts.groups);
   size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(flow) * (grid.planar ? planar_share : 1.0);
