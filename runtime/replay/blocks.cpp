@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "runtime/trace/rank_trace.hpp"
 
@@ -14,6 +15,18 @@ constexpr int fields_of_tile = 3;  // a place with so many data is a tile; other
 
 }  // namespace
 
+RunRecord without_nodes(const RunRecord& run) {
+  RunRecord rest{.graph = run.graph, .window = run.window, .replays = run.replays, .begin_ns = run.begin_ns};
+  rest.wall_ns = run.wall_ns, rest.task_ns = run.task_ns, rest.overhead_ns = run.overhead_ns;
+  return rest;
+}
+
+void require_no_messages(const GraphRecord& graph, const std::string& done) {
+  for (const NodeRecord& node : graph.nodes)
+    if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
+      throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be " + done);
+}
+
 Blocks::Blocks(const GraphRecord& graph, const RunRecord& run) : graph_(graph), of_(graph.data.size(), no_block) {
   find_modules();
   find_tiles();
@@ -21,9 +34,11 @@ Blocks::Blocks(const GraphRecord& graph, const RunRecord& run) : graph_(graph), 
   weigh(run);
 }
 
-bool Blocks::in_blocks(const NodeRecord& node) const {
-  return node.kind == NodeKind::task &&
-         std::ranges::any_of(node.uses, [&](const UseRecord& use) { return writes_to(use) && of_[use.datum] != no_block; });
+int Blocks::written_by(const NodeRecord& node) const {
+  if (node.kind != NodeKind::task) return no_block;
+  const auto own =
+      std::ranges::find_if(node.uses, [&](const UseRecord& use) { return writes_to(use) && of_[use.datum] != no_block; });
+  return own == node.uses.end() ? no_block : of_[own->datum];
 }
 
 void Blocks::find_modules() {
@@ -83,10 +98,8 @@ void Blocks::weigh(const RunRecord& run) {
   std::map<std::pair<int, int>, double> passing;
   for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
     const NodeRecord& node = graph_.nodes[n];
-    if (!in_blocks(node)) continue;
-    const int block = of_[std::ranges::find_if(node.uses, [&](const UseRecord& use) {
-                            return writes_to(use) && of_[use.datum] != no_block;
-                          })->datum];
+    const int block = written_by(node);
+    if (block == no_block) continue;
     weighted_.cost[std::size_t(block * weighted_.constraints + module_of_block_[std::size_t(block)])] +=
         std::accumulate(run.ns[n].begin(), run.ns[n].end(), 0.0);
     for (const UseRecord& use : node.uses) {

@@ -18,6 +18,11 @@ inline constexpr std::uint64_t unknown_bytes = 64;  ///< of a datum of which not
 
 inline bool writes_to(const UseRecord& use) { return use.how != Access::read; }
 
+/// A run whose nodes are yet to be written.
+RunRecord without_nodes(const RunRecord& run);
+/// `done`: what cannot be done with messages ("copied"). Throws std::invalid_argument.
+void require_no_messages(const GraphRecord& graph, const std::string& done);
+
 class Blocks {
  public:
   Blocks(const GraphRecord& graph, const RunRecord& run);
@@ -28,8 +33,8 @@ class Blocks {
   /// Index in modules(), by block: those of a module stand together, in the order of their places.
   const std::vector<int>& module_of_block() const { return module_of_block_; }
   int count() const { return int(place_.size()); }
-  /// A task that writes a block.
-  bool in_blocks(const NodeRecord& node) const;
+  /// The first that a task writes, or no_block.
+  int written_by(const NodeRecord& node) const;
 
  private:
   using Place = std::pair<int, float>;  // module, place

@@ -51,7 +51,7 @@ class BulkSynchronous {
   static std::uint32_t origin(const RankRun& rank, std::uint32_t node) { return rank.origin.empty() ? node : rank.origin[node]; }
   static std::uint32_t body_of(const RankRun& rank, std::uint32_t loop) { return loop == no_node ? no_node : origin(rank, loop); }
   std::uint32_t body_of_loop(const Member& m) const { return origin(ranks_[std::size_t(m.rank)], m.node); }
-  int number(int rank) const { return number_of(ranks_, rank); }
+  int number(int rank) const { return ranks_[std::size_t(rank)].number_at(rank); }
   const NodeRecord& node(const Member& m) const { return ranks_[std::size_t(m.rank)].graph.nodes[m.node]; }
 
   std::vector<Phase> phases(const std::vector<Member>& members) const {

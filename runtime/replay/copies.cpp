@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "runtime/partition/partition.hpp"
 #include "runtime/replay/blocks.hpp"
@@ -25,8 +24,7 @@ class Copier {
         as_(graph.nodes.size(), no_node) {
     half_of_block_.assign(std::size_t(blocks_.count()), 0);
     if (blocks_.count() > 1) half_of_block_ = partition_blocks(blocks_.weighted(), {.ranks = 2}).rank_of_block;
-    out_.run = {.graph = run.graph, .window = run.window, .replays = run.replays, .begin_ns = run.begin_ns};
-    out_.run.wall_ns = run.wall_ns, out_.run.task_ns = run.task_ns, out_.run.overhead_ns = run.overhead_ns;
+    out_.run = without_nodes(run);
     copy_data();
     for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
       if (!across_.empty() && !alike(across_.front(), n)) add_across();
@@ -71,9 +69,7 @@ class Copier {
 
   void copy(std::uint32_t n) {
     const NodeRecord& node = graph_.nodes[n];
-    if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
-      throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be copied");
-    if (!blocks_.in_blocks(node)) return of_all(n);
+    if (blocks_.written_by(node) == no_block) return of_all(n);
     const bool borders = count_ > 1 && !everywhere(node);
     bool writes[2] = {};
     for (const UseRecord& use : node.uses)
@@ -140,6 +136,7 @@ class Copier {
 }  // namespace
 
 RankRun copies(const GraphRecord& graph, const RunRecord& run, int count, double serial) {
+  require_no_messages(graph, "copied");
   return Copier(graph, run, count, serial).take();
 }
 

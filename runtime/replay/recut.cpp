@@ -32,8 +32,7 @@ class Cutter {
     for (int r = 0; r < ranks; ++r) {
       RankRun& to = out_[std::size_t(r)];
       to.graph.data = graph.data;
-      to.run = {.graph = run.graph, .window = run.window, .replays = run.replays, .begin_ns = run.begin_ns};
-      to.run.wall_ns = run.wall_ns, to.run.task_ns = run.task_ns, to.run.overhead_ns = run.overhead_ns;
+      to.run = without_nodes(run);
     }
     place_data();
     body(no_node);
@@ -273,9 +272,7 @@ struct FirstPart {
 }  // namespace
 
 Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first_rank, int alike) {
-  for (const NodeRecord& node : graph.nodes)
-    if (node.kind == NodeKind::send || node.kind == NodeKind::receive)
-      throw std::invalid_argument("the graph has messages (" + node.label + "): record on one rank what is to be cut for others");
+  require_no_messages(graph, "cut for others");
   const Blocks blocks(graph, run);
   const FirstPart part(blocks, alike);
   Recut out;

@@ -133,7 +133,7 @@ class Simulation {
     for (const RankRun& run : runs) ++group_size_[run.group];
     for (std::size_t r = 0; r < runs.size(); ++r)
       ranks_.push_back(std::make_unique<Rank>(runs[r], group_size_[runs[r].group], cluster.threads,
-                                              speed_factor(cluster, number_of(runs, int(r))), chains_));
+                                              speed_factor(cluster, runs[r].number_at(int(r))), chains_));
   }
 
   Simulated run() {
@@ -412,10 +412,7 @@ class Simulation {
   // ---- network
 
   /// Of the cluster.
-  int node_of(int r) const {
-    const int number = ranks_[std::size_t(r)]->of.number;
-    return cluster_.node_of(number < 0 ? r : number);
-  }
+  int node_of(int r) const { return cluster_.node_of(ranks_[std::size_t(r)]->of.number_at(r)); }
   const Wire& wire(int from, int to) const { return node_of(from) == node_of(to) ? cluster_.within : cluster_.between; }
 
   void post(int r, std::uint32_t slot, Path path) {
@@ -552,11 +549,6 @@ Simulated& Simulated::operator+=(const Simulated& next) {
 }
 
 int ranks_in_all(const Cluster& cluster, int ranks) { return int(std::lround(cluster.times * ranks)); }
-
-int number_of(std::span<const RankRun> ranks, int rank) {
-  const int number = ranks[std::size_t(rank)].number;
-  return number < 0 ? rank : number;
-}
 
 double speed_factor(const Cluster& cluster, int rank) {
   if (cluster.skew == 0.0) return 1.0;

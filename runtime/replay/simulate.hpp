@@ -37,6 +37,7 @@ struct RankRun {
       {};           ///< by node: that of the graph it was cut from, of a message what it is for; none: its own
   int group = 0;    ///< ranks that share reductions and collective calls; messages name ranks of all groups
   int number = -1;  ///< on the cluster, which says its node and speed; -1: as it stands in the list that is simulated
+  int number_at(int place) const { return number < 0 ? place : number; }
 };
 
 /// Of a chain: what all executions of a family of labels took, or all messages and reductions of a module.
@@ -79,9 +80,6 @@ double all_to_all_s(const Cluster& cluster, int ranks, double bytes);
 
 /// Of the whole computer, where `ranks` of a group are simulated.
 int ranks_in_all(const Cluster& cluster, int ranks);
-
-/// On the cluster, of the rank that stands there in the list.
-int number_of(std::span<const RankRun> ranks, int rank);
 
 /// Factor on the times of a rank's tasks, at least 0.2; the same for a rank in every simulation.
 double speed_factor(const Cluster& cluster, int rank);

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "src/aero/flow_size.hpp"
 #include "src/aero/options.hpp"
 
 namespace spindrift::aero {
@@ -33,14 +34,9 @@ double far_side_excess(const RotorGridOptions& grid);
 std::string far_side_note(const RotorGridOptions& grid);
 
 /// Size and cost of a scene's rotor before anything is made (resolved_rotor_size.cpp).
-struct ResolvedRotorSize {
-  long cells = 0;
+/// Of bytes also those of a window's start, which is noted; of one note more per iterated window.
+struct ResolvedRotorSize : FlowSize {
   int sectors = 1, stations = 0;
-  double bytes = 0.0;                ///< of solver, grid and the note of a window's start; of one note more per iterated window
-  double bytes_each = 0.0;           ///< as FlowSize has it
-  double bytes_of_output = 0.0;      ///< more while fields are written
-  double bytes_of_checkpoint = 0.0;  ///< while one is written
-  double core_seconds_per_pseudo_step = 0.0;  ///< by the stated rate
 };
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup);
 

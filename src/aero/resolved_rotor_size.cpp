@@ -108,8 +108,7 @@ Parts parts_of_block(const Kind& kind, std::array<int, 3> n) {
 /// Counts a coarse level's matrix and factors. By elimination, which every rank makes: an envelope as wide as a plane through all
 /// groups (a line in the plane), in double, and the entries it is made of, twice. By multigrid, shared: the matrix, its coarser
 /// ones and their factors.
-template <class Size>
-void add_coarse_level(Size& size, const Kind& kind, double groups) {
+void add_coarse_level(FlowSize& size, const Kind& kind, double groups) {
   if (!kind.coarse) return;
   constexpr double block = 25.0 * sizeof(double), entries = 7.0, levels = 4.0;
   if (groups > kind.direct_groups)

@@ -482,7 +482,8 @@ void print_study(const CheckArguments& arguments, const Trial& trial) {
   fmt::print("\n[study]\nscene = \"{}\"\n", std::filesystem::absolute(arguments.scene).lexically_normal().string());
   if (!arguments.overrides.empty()) fmt::print("set = [{}]\n", listed(arguments.overrides));
   fmt::print("\n[variants.the_scene_itself]\n");
-  for (const Omission& o : trial.omissions) fmt::print("[variants.{}]\nset = [{}]\n", as_name(o.name), listed(o.overrides));
+  for (const Omission& o : trial.omissions)
+    fmt::print("[variants.{}]\nset = [{}]\n", as_name(o.choice.name), listed(o.choice.overrides));
   fmt::print("\n[reference]\nvariant = \"the_scene_itself\"\n");
   for (const std::string& column : arguments.columns)
     fmt::print("\n[metrics.{}]\ncolumn = \"{}\"\nmeasure = \"{}\"\n", as_name(column), column, trial.steady ? "last" : "mean");
@@ -516,17 +517,17 @@ void print_omissions(const CheckArguments& arguments) {
                *trial.own[c].deviation);
   for (const Omission& o : trial.omissions) {
     if (!o.refused.empty()) {
-      fmt::print("  {:<30}cannot be: {}\n", o.name, o.refused);
+      fmt::print("  {:<30}cannot be: {}\n", o.choice.name, o.refused);
       continue;
     }
     const double percent = 100.0 * o.saving.error;
     if (o.saving.shows())
-      fmt::print("  {:<30}saves {:.0f} % (+- {:.1g}), by", o.name, 100.0 * o.saving.share, percent);
+      fmt::print("  {:<30}saves {:.0f} % (+- {:.1g}), by", o.choice.name, 100.0 * o.saving.share, percent);
     else
-      fmt::print("  {:<30}saves nothing that shows (+- {:.1g} %), by", o.name, percent);
-    for (const std::string& text : o.overrides) fmt::print("{}", as_option(text));
+      fmt::print("  {:<30}saves nothing that shows (+- {:.1g} %), by", o.choice.name, percent);
+    for (const std::string& text : o.choice.overrides) fmt::print("{}", as_option(text));
     fmt::print("\n");
-    if (o.in_plane && std::ranges::any_of(columns, is_out_of_plane))
+    if (o.choice.in_plane && std::ranges::any_of(columns, is_out_of_plane))
       fmt::print("  {:<30}bodies stay in the plane: sway, roll and yaw are lost\n", "");
     for (std::size_t c = 0; c < columns.size(); ++c)
       fmt::print("  {:<30}{}: mean {}, deviation {}\n", "", columns[c], changed_by(o.effects[c].mean),

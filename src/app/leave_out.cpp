@@ -282,7 +282,7 @@ class Trials {
     for (std::size_t n = 0; n < omissions.size(); ++n) {
       say(0.0);
       try {
-        less_[n] = std::make_unique<Tried>(path, overrides + omissions[n].overrides, folder / std::to_string(n));
+        less_[n] = std::make_unique<Tried>(path, overrides + omissions[n].choice.overrides, folder / std::to_string(n));
         require_columns(less_[n]->names(), columns);
       } catch (const std::exception& e) { refused[n] = e.what(), less_[n].reset(); }
     }
@@ -363,13 +363,7 @@ Trial try_omissions(const std::string& path, const Overrides& overrides, const s
   if (scenario.has_particles()) scenario.sea.particles->sound_speed_m_s = ready->floating->particle_plan()->parameters.eos.c0;
   Trial trial{.end_s = scenario.time.end_s, .budget_s = budget_s};
   trial.steady = scenario.has_flow() && scenario.aero.flow->time == "steady";
-  for (SmallerChoice& choice : smaller_choices(scenario, document))
-    trial.omissions.push_back({.name = std::move(choice.name),
-                               .overrides = std::move(choice.overrides),
-                               .effects = {},
-                               .saving = {},
-                               .refused = {},
-                               .in_plane = choice.in_plane});
+  for (SmallerChoice& choice : smaller_choices(scenario, document)) trial.omissions.push_back({std::move(choice)});
   if (fluids) {
     set_length_of_fluids(trial, ready ? forecast(*ready->floating, ready->start) : forecast_of_air(scenario), columns);
     if (!trial.untried.empty()) return trial;

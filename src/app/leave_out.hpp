@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "src/app/smaller_choices.hpp"
+
 namespace spindrift::app {
 
 /// Mean and standard deviation of a column, or what a choice changes of them, in the column's unit.
@@ -24,12 +26,10 @@ struct Saving {
 };
 
 struct Omission {
-  std::string name;                    ///< "longer step"
-  std::vector<std::string> overrides;  ///< what makes it: "time.step_s=0.1"
-  std::vector<Effect> effects;         ///< by column asked for
-  Saving saving;
-  std::string refused;    ///< not empty: why it cannot be done
-  bool in_plane = false;  ///< as SmallerChoice has it
+  SmallerChoice choice;
+  std::vector<Effect> effects = {};  ///< by column asked for
+  Saving saving = {};
+  std::string refused = {};  ///< not empty: why it cannot be done
 };
 
 struct Trial {

@@ -178,8 +178,8 @@ class Mirror {
   }
 
  private:
-  static Eigen::Vector3d direction(const Eigen::Vector3d& v) { return {v.x(), -v.y(), v.z()}; }
-  Eigen::Vector3d place(const Eigen::Vector3d& x) const { return {x.x(), 2.0 * plane_ - x.y(), x.z()}; }
+  static Eigen::Vector3d direction(const Eigen::Vector3d& v) { return coupling::image_across(0.0, v); }
+  Eigen::Vector3d place(const Eigen::Vector3d& x) const { return coupling::image_across(plane_, x); }
   static bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm() <= 1e-6 * (1.0 + b.norm()); }
   double plane_;
 };

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "runtime/trace/clock.hpp"
 #include "runtime/trace/ledger.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/coupling/columns.hpp"
@@ -61,7 +61,7 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
         "aero/rotor", long(solver.time_steps()), t);
 }
 
-double wall_clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds_since(std::int64_t begin_ns) { return 1e-9 * double(runtime::Clock::now_ns() - begin_ns); }
 
 }  // namespace
 
@@ -101,9 +101,9 @@ aero::RotorLoad MarchingAir::load_at_end() {
 }
 
 void MarchingAir::make_timed() {
-  const double begin_s = wall_clock_s();
+  const std::int64_t begin_ns = runtime::Clock::now_ns();
   make();
-  made_s_ = std::max(made_s_, wall_clock_s() - begin_s);
+  made_s_ = std::max(made_s_, seconds_since(begin_ns));
 }
 
 std::optional<aero::TileMove> MarchingAir::better_ranks(const Measured& measured) {
@@ -119,14 +119,14 @@ std::optional<aero::TileMove> MarchingAir::better_ranks(const Measured& measured
 void MarchingAir::move_tiles(const aero::TileMove& move) {
   const runtime::Span span("aero/balance");
   const runtime::StopRequest::Later to_the_end;  // between two solvers there is no state to save
-  const double begin_s = wall_clock_s();
+  const std::int64_t begin_ns = runtime::Clock::now_ns();
   const aero::GridStore& grid = solver_->grid();
   const std::vector<int> owned(grid.owned().begin(), grid.owned().end());
   const std::vector<int> before(grid.rank_of_tile().begin(), grid.rank_of_tile().end());
   rank_of_tile_ = move.rank_of_tile;
   make_anew([&](aero::FlowSnapshot mine) { return aero::send_tiles(std::move(mine), owned, rank_of_tile_, world_.comm); });
   if (output_) output_->follow(*solver_);
-  const double took_s = wall_clock_s() - begin_s;
+  const double took_s = seconds_since(begin_ns);
   made_s_ = std::max(made_s_, took_s);
   std::size_t moved = 0;
   for (std::size_t t = 0; t < before.size(); ++t) moved += std::size_t(before[t] != rank_of_tile_[t]);

@@ -48,10 +48,7 @@ class Symmetry {
   void out_of_plane(const std::string& key, const std::string& how) {
     wrong(key, fmt::format("is {}: bodies stay in the plane of symmetry ({})", how, key_of_plane));
   }
-  Eigen::Vector3d image(Eigen::Vector3d x) const {
-    x.y() = 2.0 * plane_ - x.y();
-    return x;
-  }
+  Eigen::Vector3d image(const Eigen::Vector3d& x) const { return image_across(plane_, x); }
   bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const { return (a - b).norm() <= near_; }
   bool same(double a, double b) const { return std::abs(a - b) <= near_; }
 

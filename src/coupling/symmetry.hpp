@@ -10,6 +10,12 @@
 
 namespace spindrift::coupling {
 
+/// The mirror image in the plane y = `plane` [m].
+inline Eigen::Vector3d image_across(double plane, Eigen::Vector3d x) {
+  x.y() = 2.0 * plane - x.y();
+  return x;
+}
+
 /// What is not symmetrical about the plane y = `plane` [m], one sentence each with its key: bodies with shapes and how they
 /// start, drivers that turn them out of it, waves; and what halves cannot have.
 std::vector<sea::OptionProblem> symmetry_problems(const Scenario& scenario, double plane);

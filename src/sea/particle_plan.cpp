@@ -251,7 +251,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       const auto body = shaped(key, sensor.body);
       if (body == bodies.end()) continue;
       const Eigen::Vector3d low = sensor.low_m - body->described.position, high = sensor.high_m - body->described.position;
-      const sph::Cut cut = planar ? sph::Cut::plane : t.symmetric() ? sph::Cut::half : sph::Cut::space;
+      const sph::Cut cut = sph::cut_of(planar, t.symmetric());
       if (t.symmetric() && sensor.low_m[1] < t.y_m[0])
         wrong(key, fmt::format("reaches y = {} m, beyond the plane of symmetry (sea.tank.sides_y) at {} m", sensor.low_m[1],
                                t.y_m[0]));

@@ -59,7 +59,7 @@ struct ParticlePlan {
   /// What loads, masses and energies of the particles are multiplied by to be those of the scene: a width, or two halves.
   double share() const { return options.planar() ? options.width_m : tank.mirrored ? 2.0 : 1.0; }
   /// What of bodies and walls has particles.
-  sph::Cut cut() const { return options.planar() ? sph::Cut::plane : tank.mirrored ? sph::Cut::half : sph::Cut::space; }
+  sph::Cut cut() const { return sph::cut_of(options.planar(), tank.mirrored); }
 };
 /// `entry_speed` [m/s]: the greatest at which a body meets the water.
 ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,

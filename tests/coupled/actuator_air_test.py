@@ -2,40 +2,18 @@
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
 import unittest
 
-from running import ROOT, Runs, rows
+from running import AIR_OF_LINES, ROOT, Runs, rows
 
-# Four cells to the radius and sides at five radii: what is tested is the exchange, not the flow.
 FLOW = """
 [wind]
 speed_m_s = 11.0
 [rotor]
 turbine = "%s/inputs/turbines/dtu_10mw.toml"
 %%s
-[aero]
-model = "actuator_line"
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-physical_far_field = true
+""" % ROOT + AIR_OF_LINES + """
 drop = 1e-2
 max_pseudo_steps = 10
-boundaries = [
-  {patch = "x_min", condition = "far_field"},
-  {patch = "x_max", condition = "far_field"},
-  {patch = "y_min", condition = "far_field"},
-  {patch = "y_max", condition = "far_field"},
-  {patch = "z_min", condition = "symmetry"},
-  {patch = "z_max", condition = "far_field"},
-]
-[aero.flow.generate]
-kind = "stretched_box"
-cell_m = 22.0
-growth = 1.4
-low_m = [-450.0, -450.0, 0.0]
-high_m = [450.0, 450.0, 550.0]
-core_low_m = [-50.0, -110.0, 0.0]
-core_high_m = [50.0, 110.0, 220.0]
-""" % ROOT
+"""
 FLOATING = """
 base = "%s/inputs/leble_barakos/platform.toml"
 [time]

@@ -4,7 +4,7 @@ import unittest
 
 import numpy
 
-from running import Folder, ROOT, columns, spindrift
+from running import AIR_OF_LINES, ROOT, Runs, columns
 
 # Six cells to the radius from a diameter upwind of the hub on.
 SCENE = f"""
@@ -31,8 +31,6 @@ point_m = [0.0, 0.0, 119.0]
 axis = [1.0, 0.0, 0.0]
 [joints.bearing.rotation]
 speed_rpm = 8.8
-[aero]
-model = "actuator_line"
 """
 TURBULENCE = """
 [wind.turbulence]
@@ -43,46 +41,24 @@ points_up = 9
 duration_s = 120.0
 step_s = 0.5
 """
-FLOW = """
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-physical_far_field = true
+LINES = SCENE + AIR_OF_LINES + """
 drop = 1e-2
 max_pseudo_steps = 10
-boundaries = [
-  {patch = "x_min", condition = "far_field"},
-  {patch = "x_max", condition = "far_field"},
-  {patch = "y_min", condition = "far_field"},
-  {patch = "y_max", condition = "far_field"},
-  {patch = "z_min", condition = "symmetry"},
-  {patch = "z_max", condition = "far_field"},
-]
-[aero.flow.generate]
-kind = "stretched_box"
-cell_m = 14.9
-growth = 1.35
-low_m = [-1070.0, -890.0, 0.0]
-high_m = [890.0, 890.0, 1010.0]
-core_low_m = [-200.0, -119.0, 0.0]
-core_high_m = [75.0, 119.0, 238.0]
 """
+GRID = [f"aero.flow.generate.{key}" for key in ("cell_m=14.9", "growth=1.35", "low_m=[-1070.0,-890.0,0.0]", "high_m=[890.0,890.0,1010.0]",
+                                                "core_low_m=[-200.0,-119.0,0.0]", "core_high_m=[75.0,119.0,238.0]")]
+ELEMENTS = SCENE.replace("[start]\nair_steps = 60\n", "") + '[aero]\nmodel = "bem"\ndynamic_inflow = "oye"\n'
 SETTLED_S = 18.0  # when the turbulence has come from its plane to the rotor
 MEAN_OVER = 7     # rows, 2.1 s: what is shorter is lost on the way to the lines
 
 
-class Turbulence(Folder):
-    def run_scene(self, text, name):
-        scene = self.path / "scene.toml"
-        scene.write_text(text)
-        done = spindrift("run", scene, "--quiet", "--no-report", "--out", self.path / name)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        return columns(self.path / name / "history.csv")
-
+class Turbulence(Runs):
     def test_lines_and_blade_elements_meet_the_same_gusts(self):
-        elements = SCENE.replace('"actuator_line"', '"bem"\ndynamic_inflow = "oye"').replace("[start]\nair_steps = 60\n", "")
-        runs = {(model, wind): self.run_scene(text + (TURBULENCE if wind == "turbulent" else ""), f"{model}_{wind}")
-                for model, text in (("lines", SCENE + FLOW), ("elements", elements)) for wind in ("steady", "turbulent")}
+        runs = {}
+        for model, text, grid in (("lines", LINES, GRID), ("elements", ELEMENTS, [])):
+            for wind, box in (("steady", ""), ("turbulent", TURBULENCE)):
+                self.run_scene(text + box, f"{model}_{wind}", settings=grid)
+                runs[model, wind] = columns(self.path / f"{model}_{wind}" / "history.csv")
         time = runs["lines", "turbulent"]["time_s"]
         for column in ("rotor.thrust_N", "rotor.torque_N_m"):
             def changes(model):

@@ -16,88 +16,19 @@ using namespace spindrift::coupling::test;
 
 namespace {
 
-const std::string floating_rotor = R"(
-base = "leble_barakos/platform.toml"
-[time]
-end_s = 12.0
-window_s = 0.1
-step_s = 0.05
-[start]
-air_steps = 3
-[sea]
-model = "hydrostatic"
-[wind]
-speed_m_s = 11.0
-[rotor]
-turbine = "turbines/dtu_10mw.toml"
-)";
-/// 25 000 cells, three pseudo-steps a window.
-const std::string air_of_blades = R"(
-[aero]
-model = "blade_resolved"
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-limiter = "none"
-matrix_free_below = 0.0
-cfl = 2.0
-cfl_max = 20.0
-krylov_steps = 3
+const std::string settled = "[start]\nair_steps = 3\n";
+const std::string few_steps = R"(
 max_pseudo_steps = 3
 unconverged_share = 1.0
 drop = 0.0
 tile_cells = 512
-[aero.grid]
-resolution = 1.0
-cells_round = 28
-cells_layers = 4
-cells_span = 8
-first_cell_chords = 8e-3
-sectors = "all"
 )";
-const std::string blades = floating_rotor + air_of_blades;
-const std::string blades_that_pitch = R"(
-base = "control/dtu_10mw_fixed.toml"
-[time]
-end_s = 12.0
-window_s = 0.1
-step_s = 0.05
-[start]
-air_steps = 3
-)" + air_of_blades;
-const std::string lines = floating_rotor + R"(
-[aero]
-model = "actuator_line"
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-physical_far_field = true
-max_pseudo_steps = 3
-unconverged_share = 1.0
-drop = 0.0
-tile_cells = 512
-boundaries = [
-  {patch = "x_min", condition = "far_field"},
-  {patch = "x_max", condition = "far_field"},
-  {patch = "y_min", condition = "far_field"},
-  {patch = "y_max", condition = "far_field"},
-  {patch = "z_min", condition = "symmetry"},
-  {patch = "z_max", condition = "far_field"},
-]
-[aero.flow.generate]
-kind = "stretched_box"
-cell_m = 22.0
-growth = 1.4
-low_m = [-450.0, -450.0, 0.0]
-high_m = [450.0, 450.0, 550.0]
-core_low_m = [-50.0, -110.0, 0.0]
-core_high_m = [50.0, 110.0, 220.0]
-)";
-
-Scenario scene_of(const std::string& text, const std::vector<std::string>& overrides) {
-  scene::Document document = scene::parse(text, "test.toml", SPINDRIFT_SOURCE_DIR "/inputs", overrides);
-  return read_scenario(document);
-}
+/// 25 000 cells.
+const std::string air_of_blades = settled + shared_scene("air_of_blades.toml") + "cfl_max = 20.0\nkrylov_steps = 3" + few_steps;
+const std::string all_sectors = "aero.grid.sectors=all";
+const std::string blades = rotor_on_platform + air_of_blades;
+const std::string blades_that_pitch = "base = \"control/dtu_10mw_fixed.toml\"\n" + air_of_blades;
+const std::string lines = rotor_on_platform + settled + shared_scene("air_of_lines.toml") + few_steps;
 
 runtime::World all_ranks() { return {MPI_COMM_WORLD, runtime::rank_in(MPI_COMM_WORLD), runtime::ranks_in(MPI_COMM_WORLD)}; }
 const runtime::World alone{MPI_COMM_SELF, 0, 1};
@@ -203,13 +134,18 @@ struct Kind {
   std::vector<std::string> overrides;
 };
 std::vector<Kind> kinds() {
-  return {
-      {"blades, a set-up kept over steps",
-       blades,
-       {"aero.flow.preconditioner=coarse", "aero.flow.common_every=1000", "aero.flow.common_steps=3", "aero.flow.group_cells=0"}},
-      {"blades, iterated", blades, {"coupling.scheme=iqn_ils", "coupling.tolerance=1e-3", "coupling.max_evaluations=30"}},
-      {"blades that pitch", blades_that_pitch, {"wind.speed_m_s=18.0", "coupling.scheme=css", "start.air_steps=30"}},
-      {"lines", lines, {"coupling.scheme=css"}}};
+  return {{"blades, a set-up kept over steps",
+           blades,
+           {all_sectors, "aero.flow.preconditioner=coarse", "aero.flow.common_every=1000", "aero.flow.common_steps=3",
+            "aero.flow.group_cells=0"}},
+          {"blades, iterated",
+           blades,
+           {all_sectors, "coupling.scheme=iqn_ils", "coupling.tolerance=1e-3", "coupling.max_evaluations=30"}},
+          {"blades that pitch",
+           blades_that_pitch,
+           {all_sectors, "wind.speed_m_s=18.0", "coupling.scheme=css", "start.air_steps=30", "time.end_s=12.0",
+            "time.window_s=0.1", "time.step_s=0.05"}},
+          {"lines", lines, {"coupling.scheme=css"}}};
 }
 
 }  // namespace
@@ -218,7 +154,7 @@ TEST_CASE("tiles of the air that one rank has too many of go to others, with the
           "[coupled][air][mpi2][mpi4]") {
   const Kind kind = kinds().at(GENERATE(0, 1, 2, 3));
   INFO(kind.name);
-  const Scenario scenario = scene_of(kind.scene, kind.overrides);
+  const Scenario scenario = scenario_of(kind.scene, kind.overrides);
   const runtime::World world = all_ranks();
   Going expected(scenario, runtime::Parts(alone)), moved(scenario, runtime::Parts(world));
   expected.begin(), moved.begin();
@@ -259,7 +195,7 @@ TEST_CASE("tiles of the air that one rank has too many of go to others, with the
 }
 
 TEST_CASE("tiles of the air move among its own ranks where it has some of a run's", "[coupled][air][mpi4]") {
-  const Scenario scenario = scene_of(blades, {"coupling.scheme=cps2"});
+  const Scenario scenario = scenario_of(blades, {all_sectors, "coupling.scheme=cps2"});
   const runtime::World world = all_ranks();
   Going expected(scenario, runtime::Parts(alone)),
       moved(scenario, runtime::Parts(world, 2, world.rank == 0 ? sea_part : air_part));
@@ -277,7 +213,7 @@ TEST_CASE("tiles stay where bits would follow the clock", "[coupled][air][mpi2]"
       GENERATE(std::vector<std::string>{"aero.flow.preconditioner=pressure_amg"},
                std::vector<std::string>{"aero.flow.preconditioner=coarse", "aero.flow.direct_groups=0"});
   const runtime::World world = all_ranks();
-  Going run(scene_of(lines, overrides), runtime::Parts(world));
+  Going run(scenario_of(lines, overrides), runtime::Parts(world));
   run.begin();
   const std::size_t own = run.own_tiles();
   std::int64_t tiles = std::int64_t(own);

@@ -3,7 +3,7 @@ elements say, events, same bits however it is run, what is refused. Usage: air_c
 SPDX-License-Identifier: Apache-2.0"""
 import unittest
 
-from running import ROOT, Runs
+from running import AIR_OF_BLADES, ROOT, Runs
 
 FIXED = ROOT / "inputs/control/dtu_10mw_fixed.toml"
 DISC = ROOT / "inputs/control/dtu_10mw_disc.toml"
@@ -22,7 +22,6 @@ step_s = 0.05
 air_steps = 10
 ramp_s = 1.0
 """ % ROOT + "[aero]" + DISC.read_text().split("[aero]")[1].split("[output]")[0]
-# 3 000 cells a sector, three pseudo-steps: enough to see what is passed on.
 BLADES = """
 base = "%s"
 [time]
@@ -31,25 +30,12 @@ window_s = 0.1
 step_s = 0.05
 [start]
 air_steps = 30
-[aero]
-model = "blade_resolved"
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-limiter = "none"
-matrix_free_below = 0.0
-cfl = 2.0
+""" % FIXED + AIR_OF_BLADES + """
 cfl_max = 20.0
 krylov_steps = 6
 max_pseudo_steps = 10
 drop = 1e-2
-[aero.grid]
-resolution = 1.0
-cells_round = 28
-cells_layers = 4
-cells_span = 8
-first_cell_chords = 8e-3
-""" % FIXED
+"""
 
 
 def mean(history, column, after):

@@ -88,6 +88,8 @@ class Ranks(Folder):
     """Memory of a rank, beside its share: the program, messages, what all ranks have."""
 
     def test_memory_of_a_rank_is_that_of_the_run(self):
+        if sanitized():
+            return
         case = ROOT / "inputs/leble_barakos/case3_demo.toml"
         shorter = ["start.air_steps=4", "time.end_s=0.1"]
         said = spindrift("check", case, settings=shorter)

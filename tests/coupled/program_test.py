@@ -17,8 +17,9 @@ CASE2 = ROOT / "inputs/leble_barakos/case2_engineering.toml"
 
 
 class Program(Folder):
-    def run_case(self, *more, scene=CASE1, ranks=0, out=None):
-        return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks)
+    def run_case(self, *more, scene=CASE1, ranks=0, threads=None, out=None):
+        env = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
+        return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks, env=env)
 
     def test_a_run_leaves_everything_the_documentation_names(self):
         done = self.run_case("--until", 2, "--trace", "--set", "aero.thrust_N=1.4e6")
@@ -52,12 +53,12 @@ class Program(Folder):
         self.assertIn("absent.toml", done.stderr)
         self.assertLess(time.monotonic() - began, 40.0)
 
-    def recorded(self, *more, ranks=0):
+    def recorded(self, *more, ranks=0, threads=None):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"
         small = ["--set", "sea.particles.spacing_m=0.08", "--set", "time.window_s=0.04", "--set", "time.end_s=0.2", "--set", "sea.initial.settle_s=0.08"]
         recording = self.out.parent / "graph.jsonl"
-        done = self.run_case(*small, "--record-graph", recording, "--windows", "3:4", *more, scene=box, ranks=ranks)
+        done = self.run_case(*small, "--record-graph", recording, "--windows", "3:4", *more, scene=box, ranks=ranks, threads=threads)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return recording
 
@@ -131,6 +132,29 @@ class Program(Folder):
         self.assertAlmostEqual(wide["shared", 4]["work_s"], 4 * some["shared", 1]["work_s"], delta=1e-6)
         self.assertGreater(1.0001 * wide["shared", 4]["wall_s"], wide["shared", 4]["work_s"] / 4)  # of four cores
         self.assertGreater(wide["shared", 4]["wall_s"], some["shared", 1]["wall_s"])
+
+    def test_a_recording_is_made_quiet(self):
+        recording, quiet, out = self.recorded(threads=1), self.out.parent / "quiet.jsonl", self.out.parent / "quiet.json"
+        subprocess.run([ROOT / "perf/quiet_recording", recording, quiet], check=True)
+        busy, calm = ([json.loads(line) for line in file.read_text().splitlines()] for file in (recording, quiet))
+        self.assertEqual(len(busy), len(calm))
+        runs = [line for line in calm if "run" in line]
+        for run, was in zip(runs, (line for line in busy if "run" in line)):
+            self.assertEqual(list(map(len, run["ns"])), list(map(len, was["ns"])))
+            self.assertEqual(run["wall_ns"], run["task_ns"] + run["overhead_ns"])
+        for graph in {run["graph"] for run in runs}:
+            for executions in zip(*(run["ns"] for run in runs if run["graph"] == graph)):
+                self.assertLessEqual(len({ns for one in executions for ns in one if ns > 1500}), 1)
+        between = {window["wall_ns"] - sum(run["wall_ns"] for run in runs if run["window"] == window["number"]) for window in calm[0]["windows"]}
+        self.assertEqual(len(between), 1)
+        done = spindrift("replay", quiet, "--json", out)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        work = sum(run["task_ns"] for run in runs) / 2e9
+        self.assertAlmostEqual(json.loads(out.read_text())["predictions"][0]["work_s"], work, delta=1e-6 * work)
+        recording.write_text(json.dumps({**busy[0], "ranks": 2}) + "\n")
+        said = subprocess.run([ROOT / "perf/quiet_recording", recording, quiet], capture_output=True, text=True, check=False)
+        self.assertEqual(said.returncode, 1)
+        self.assertIn("one rank and thread", said.stderr)
 
     def test_a_recording_of_two_ranks_is_replayed_on_two(self):
         recording = self.recorded(ranks=2)

@@ -17,36 +17,12 @@ namespace {
 
 const runtime::World alone{MPI_COMM_SELF, 0, 1};
 
-Scenario on_platform(const std::string& grid, const std::vector<std::string>& overrides = {}) {
-  const std::string text = R"(
-base = "leble_barakos/platform.toml"
-[time]
-end_s = 12.0
-window_s = 0.1
-step_s = 0.05
-[sea]
-model = "hydrostatic"
-[wind]
-speed_m_s = 11.0
-[rotor]
-turbine = "turbines/dtu_10mw.toml"
-[aero]
-model = "blade_resolved"
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-limiter = "none"
-matrix_free_below = 0.0
-cfl = 2.0
-[aero.grid]
-resolution = 1.0
-)" + grid;
-  scene::Document document = scene::parse(text, "test.toml", SPINDRIFT_SOURCE_DIR "/inputs", overrides);
-  return read_scenario(document);
+Scenario on_platform(const std::string& sectors, std::vector<std::string> overrides) {
+  overrides.push_back("aero.grid.sectors=" + sectors);
+  return scenario_of(rotor_on_platform + shared_scene("air_of_blades.toml"), overrides);
 }
 
-/// 3 000 cells a sector, three pseudo-steps: enough to see what is passed on.
-const std::string tiny = "cells_round = 28\ncells_layers = 4\ncells_span = 8\nfirst_cell_chords = 8e-3\n";
+/// Three pseudo-steps: enough to see what is passed on.
 const std::vector<std::string> quick{"aero.flow.cfl_max=20.0", "aero.flow.krylov_steps=6", "aero.flow.max_pseudo_steps=3",
                                      "aero.flow.drop=0.0", "start.air_steps=5"};
 
@@ -82,9 +58,9 @@ class Listening final : public AirSide {
 
 TEST_CASE("what the air answers is what the bodies feel, and its motion from a file gives the same bits",
           "[coupled][air][fast]") {
-  const std::string sectors = GENERATE("sectors = \"one\"\n", "sectors = \"all\"\n");
+  const std::string sectors = GENERATE("one", "all");
   INFO(sectors);
-  FloatingSystem floating(on_platform(tiny + sectors, quick));
+  FloatingSystem floating(on_platform(sectors, quick));
   bodies::BodiesState state = make_start(floating).state;
   const aero::RotorState first = floating.rotor()->state(0.0, state.motions);
   auto owned = std::make_unique<Listening>(make_air(floating, first, alone));
@@ -138,7 +114,7 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
     std::vector<std::string> settings = quick;
     if (grows)
       settings.insert(settings.end(), {"wind.profile='power_law'", "wind.shear_exponent=0.2", "wind.reference_height_m=119.0"});
-    FloatingSystem floating(on_platform(tiny + "sectors = \"all\"\n", settings));
+    FloatingSystem floating(on_platform("all", settings));
     const aero::RotorState first = floating.rotor()->state(0.0, make_start(floating).state.motions);
     const std::unique_ptr<AirSide> air = make_air(floating, first, alone);
     air->begin(0.0, first);
@@ -164,8 +140,10 @@ TEST_CASE("wind that grows with height tilts a rotor whose air has settled in th
 
 TEST_CASE("thrust falls as the hub of the demo's rotor moves downwind", "[coupled][air][nightly]") {
   // Hub at -1 and +1 m/s from t = 0 on, after the air has settled. The first second sees the wake of the hub at rest.
-  FloatingSystem floating(on_platform("sectors = \"one\"\n", {"aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2",
-                                                              "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
+  FloatingSystem floating(on_platform(
+      "one",
+      {"without=[\"aero.grid.cells_round\",\"aero.grid.cells_layers\",\"aero.grid.cells_span\",\"aero.grid.first_cell_chords\"]",
+       "aero.flow.cfl_max=100.0", "aero.flow.drop=1e-2", "aero.flow.max_pseudo_steps=8", "start.air_steps=150"}));
   const aero::RotorState first = floating.rotor()->state(0.0, make_start(floating).state.motions);
   std::vector<double> thrust[2];
   for (int side = 0; side < 2; ++side) {

@@ -15,6 +15,10 @@ import numpy
 
 PROGRAM = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/spindrift").resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Texts that scenes of several tests end with; C++ tests read them too.
+SCENES = ROOT / "tests/coupled/scenes"
+AIR_OF_LINES = (SCENES / "air_of_lines.toml").read_text()
+AIR_OF_BLADES = (SCENES / "air_of_blades.toml").read_text()
 
 
 def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None):

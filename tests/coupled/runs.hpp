@@ -50,6 +50,30 @@ inline std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
+/// A text that scenes of several tests end with; those in Python read it too.
+inline std::string shared_scene(const std::string& name) { return text_of(SPINDRIFT_SOURCE_DIR "/tests/coupled/scenes/" + name); }
+
+/// Of a text; files are those of inputs/.
+inline Scenario scenario_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  scene::Document document = scene::parse(text, "test.toml", SPINDRIFT_SOURCE_DIR "/inputs", overrides);
+  return read_scenario(document);
+}
+
+/// The rotor of case 3 on its platform in still water.
+inline const std::string rotor_on_platform = R"(
+base = "leble_barakos/platform.toml"
+[time]
+end_s = 12.0
+window_s = 0.1
+step_s = 0.05
+[sea]
+model = "hydrostatic"
+[wind]
+speed_m_s = 11.0
+[rotor]
+turbine = "turbines/dtu_10mw.toml"
+)";
+
 /// Mean of a history column over its last `length` seconds.
 inline double mean_of_last(const scene::Columns& history, const std::string& column, double length) {
   const auto time = history["time_s"], value = history[column];

@@ -21,6 +21,7 @@ using BodyShape = std::variant<Cylinder, Box, Sphere, Mesh>;
 /// A 2-D scene cuts bodies in the plane y = 0 of their centre: a cylinder along y is a disc, one in the plane a rectangle, a mesh
 /// is a prism. The half of a body that is symmetrical about that plane is what it has at y > 0.
 enum class Cut { space, plane, half };
+constexpr Cut cut_of(bool planar, bool symmetric) { return planar ? Cut::plane : symmetric ? Cut::half : Cut::space; }
 
 /// Distance of a point from the surface, negative inside [m]; exact but at the rims of cones.
 double signed_distance(const BodyShape& shape, Eigen::Vector3d x, Cut cut);

@@ -53,22 +53,46 @@ Points points_in_box(const Eigen::Vector3d& edges, double spacing) {
   return points;
 }
 
-std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed) {
+namespace {
+
+/// Rings as wide as the spacing, of a disc or of a `share` of one: place(points, ring, width, n) adds n points to each.
+template <class Place>
+std::vector<Eigen::Vector2d> points_by_rings(double radius, double spacing, double share, double& owed, Place&& place) {
   const int rings = whole_spacings(radius, spacing);
   const double width = radius / rings;
   std::vector<Eigen::Vector2d> points;
   double area = owed;  // in spacings^2; carried over, so that rounding does not add up
   for (int ring = 0; ring < rings; ++ring) {
-    area += pi * (2 * ring + 1) * width * width / (spacing * spacing);
-    const int n = std::max(1, int(std::lround(area - double(points.size()))));
+    area += share * pi * (2 * ring + 1) * width * width / (spacing * spacing);
+    place(points, ring, width, std::max(1, int(std::lround(area - double(points.size())))));
+  }
+  owed = area - double(points.size());
+  return points;
+}
+
+/// The same of shells of a sphere.
+template <class Place>
+Points points_by_shells(double radius, double spacing, double share, Place&& place) {
+  const int shells = whole_spacings(radius, spacing);
+  const double width = radius / shells;
+  Points points;
+  for (int shell = 0; shell < shells; ++shell) {
+    const double volume = share * 4.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
+    place(points, shell, width, std::max(1, int(std::lround(volume - double(points.size())))));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing, double& owed) {
+  return points_by_rings(radius, spacing, 1.0, owed, [](auto& points, int ring, double width, int n) {
     const double r = n == 1 ? 0.0 : centroid_of_sector(width * ring, width * (ring + 1), n);
     for (int k = 0; k < n; ++k) {
       const double angle = 2.0 * pi * (k + 0.5 * (ring % 2)) / n;
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
-  }
-  owed = area - double(points.size());
-  return points;
+  });
 }
 std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
   double owed = 0.0;
@@ -76,18 +100,10 @@ std::vector<Eigen::Vector2d> points_in_disc(double radius, double spacing) {
 }
 
 std::vector<Eigen::Vector2d> points_in_half_disc(double radius, double spacing, double& owed) {
-  const int rings = whole_spacings(radius, spacing);
-  const double width = radius / rings;
-  std::vector<Eigen::Vector2d> points;
-  double area = owed;
-  for (int ring = 0; ring < rings; ++ring) {
-    area += 0.5 * pi * (2 * ring + 1) * width * width / (spacing * spacing);
-    const int n = std::max(1, int(std::lround(area - double(points.size()))));
+  return points_by_rings(radius, spacing, 0.5, owed, [](auto& points, int ring, double width, int n) {
     const double r = centroid_of_sector(width * ring, width * (ring + 1), 2 * n);
     for (int k = 0; k < n; ++k) points.push_back({r * std::cos(pi * (k + 0.5) / n), r * std::sin(pi * (k + 0.5) / n)});
-  }
-  owed = area - double(points.size());
-  return points;
+  });
 }
 
 Points points_in_cylinder(double radius, double length, int axis, double spacing) {
@@ -105,28 +121,18 @@ Points points_in_cylinder(double radius, double length, int axis, double spacing
 }
 
 Points points_in_sphere(double radius, double spacing) {
-  const int shells = whole_spacings(radius, spacing);
-  const double width = radius / shells, golden = pi * (3.0 - std::sqrt(5.0));
-  Points points;
-  for (int shell = 0; shell < shells; ++shell) {
-    const double volume = 4.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
-    const int n = std::max(1, int(std::lround(volume - double(points.size()))));
+  const double golden = pi * (3.0 - std::sqrt(5.0));
+  return points_by_shells(radius, spacing, 1.0, [golden](Points& points, int shell, double width, int n) {
     const double r = n == 1 ? 0.0 : centroid_of_cone(width * shell, width * (shell + 1), n);
     for (int k = 0; k < n; ++k) {
       const double z = 1.0 - (2.0 * k + 1.0) / n, ring = std::sqrt(1.0 - z * z);
       points.push_back(r * Eigen::Vector3d(ring * std::cos(golden * k), ring * std::sin(golden * k), z));
     }
-  }
-  return points;
+  });
 }
 
 Points points_in_half_sphere(double radius, double spacing) {
-  const int shells = whole_spacings(radius, spacing);
-  const double width = radius / shells;
-  Points points;
-  for (int shell = 0; shell < shells; ++shell) {
-    const double volume = 2.0 / 3.0 * pi * std::pow((shell + 1) * width / spacing, 3);
-    const int n = std::max(1, int(std::lround(volume - double(points.size()))));
+  return points_by_shells(radius, spacing, 0.5, [](Points& points, int shell, double width, int n) {
     const double r = centroid_of_cone(width * shell, width * (shell + 1), 2 * n);
     // Belts as wide as points are apart, each with the area of a whole number of points; none comes near the plane.
     const int belts = std::max(1, int(std::lround(std::sqrt(0.5 * pi * n))));
@@ -140,8 +146,7 @@ Points points_in_half_sphere(double radius, double spacing) {
       }
       placed += count;
     }
-  }
-  return points;
+  });
 }
 
 }  // namespace spindrift::sph

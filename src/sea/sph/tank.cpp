@@ -95,7 +95,7 @@ class Layout {
   Layout(const TankPlan& plan, const Parameters& p)
       : plan_(plan),
         p_(p),
-        cut_(cut_of<dim>(plan)),
+        cut_(cut_of(dim == 2, plan.mirrored)),
         lattice_(plan, p.spacing),
         layers_(wall_layers(p)),
         by_surfaces_(plan, lattice_, layers_ * p.spacing) {

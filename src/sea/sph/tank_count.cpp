@@ -146,7 +146,7 @@ class Counting {
 
   /// As many particles as stand for its volume, and no water where they are.
   void count_body(const TankPlan::Body& body, TankCount& result) const {
-    const Cut cut = cut_of<dim>(plan_);
+    const Cut cut = cut_of(dim == 2, plan_.mirrored);
     constexpr double points = 600.0;
     double volume = 0.0;
     for (const BodyShape& shape : body.shapes) volume += volume_of(shape, cut);

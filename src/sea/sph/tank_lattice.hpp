@@ -51,12 +51,6 @@ inline double mean_density_ratio(const TankPlan& plan, const Parameters& p) {
   return p.gravity > 0.0 ? p.eos.mean_density_ratio(plan.depth, p.gravity) : 1.0;
 }
 
-/// What of its bodies is in a tank.
-template <int dim>
-Cut cut_of(const TankPlan& plan) {
-  return dim == 2 ? Cut::plane : plan.mirrored ? Cut::half : Cut::space;
-}
-
 /// Layers of wall particles: as many as act on water.
 inline int wall_layers(const Parameters& p) { return int(std::ceil(p.reach() / p.spacing - 1e-9)) - 1; }
 
