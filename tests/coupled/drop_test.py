@@ -4,7 +4,7 @@ import csv
 import os
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, REPLICA, ROOT, spindrift
 
 RADIUS, GRAVITY = 0.055, 9.81
 # t sqrt(g/D) and depth over D. The neutral cylinder comes to the bed at 2.73, and is there for coarse particles from t* 1.77 on.
@@ -15,7 +15,7 @@ NEUTRAL = [(0.250, 0.547), (0.587, 1.125), (1.077, 1.865), (1.558, 2.411)]
 class Drop(Folder):
     def check_depths(self, name, reference, particles_per_radius):
         done = spindrift("run", ROOT / f"inputs/validation/cylinder_drop/{name}.toml", "--out", self.out, "--overwrite", "--no-report", "--quiet",
-                         settings=[f"sea.particles.spacing_m={RADIUS / particles_per_radius}"], timeout=3600,
+                         settings=[f"sea.particles.spacing_m={RADIUS / particles_per_radius}", *REPLICA], timeout=3600,
                          env={**os.environ, "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.out / "history.csv") as file:

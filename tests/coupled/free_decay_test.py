@@ -4,7 +4,7 @@ import csv
 import os
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, REPLICA, ROOT, spindrift
 
 # Times [s] and heights (over the start's) of the first turns: Fourier integral of the transfer function of a body let go from rest.
 # Sphere: added mass and damping of Hulme (1982), J. Fluid Mech. 121, table 2, deep water. Cylinder: those of Yeung (1981), Appl. Ocean
@@ -34,13 +34,15 @@ class FreeDecay(Folder):
     def decay(self, name, body):
         """Times of the turns, and the ways between them over the first fall. What is displaced too much at the waterline, and the level of
         the tank, move the rest and not these."""
-        done = spindrift("run", ROOT / f"inputs/validation/{name}/{name}.toml", "--out", self.out, "--no-report", "--quiet", timeout=3600,
+        done = spindrift("run", ROOT / f"inputs/validation/{name}/{name}.toml", "--out", self.out, "--no-report", "--quiet", settings=REPLICA, timeout=3600,
                          env={**os.environ, "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.out / "history.csv") as file:
             rows = [(float(row["time_s"]), float(row[f"{body}.z_m"])) for row in csv.DictReader(file)]
         rows = [row for row in rows if row[0] >= 0.0]
-        return times_and_ways(rows[0][1], turns(*zip(*rows)))
+        times, ways = times_and_ways(rows[0][1], turns(*zip(*rows)))
+        print(f"{name}: turns at", " ".join(f"{t:.4f}" for t in times), "s, ways", " ".join(f"{way:.4f}" for way in ways), flush=True)
+        return times, ways
 
     def test_a_sphere_swings_with_the_period_and_damping_of_linear_theory(self):
         times, ways = self.decay("free_sphere", "sphere")

@@ -6,7 +6,7 @@ import math
 import re
 import unittest
 
-from running import ROOT, Runs, spindrift
+from running import REPLICA, ROOT, Runs, spindrift
 
 UP = 0.15
 RHO, GRAVITY = 1000.0, 9.81
@@ -65,7 +65,7 @@ class Starts(Runs):
         self.assertEqual(done.returncode, 0, done.stderr)
         found = re.search(r"^  float .* z (\S+) m .* draft (\S+) m", done.stdout, re.M)
         self.assertIsNotNone(found, done.stdout)
-        self.run_scene(file, "run", "--overwrite", threads=threads)
+        self.run_scene(file, "run", "--overwrite", settings=REPLICA, threads=threads)
         history = self.rows("run")
         first, mean = history[0]["float.sea.fz_N"] / weight, sum(row["float.z_m"] for row in history) / len(history)
         print(f"{name}, spacing {spacing:.3g} m: check {found[1]} m with draft {found[2]} m, first force {first:.4f} of the weight, mean place {mean - history[0]['float.z_m']:+.4f} m from the start",

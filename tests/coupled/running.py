@@ -21,6 +21,15 @@ AIR_OF_LINES = (SCENES / "air_of_lines.toml").read_text()
 AIR_OF_BLADES = (SCENES / "air_of_blades.toml").read_text()
 
 
+def starts(count=1):
+    """Settings of a sea of particles for so many starts that differ by chance alone, the first the scene's own; others by SPINDRIFT_REPLICA (tests/replica.hpp)."""
+    first = int(os.environ.get("SPINDRIFT_REPLICA", 0)) * count
+    return [["sea.particles.jitter=0.01", f"sea.particles.jitter_seed={seed}"] if seed else [] for seed in range(first, first + count)]
+
+
+REPLICA = starts()[0]
+
+
 def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None):
     """The finished program: exit code and what it said. `settings` become --set options; without ranks there is no mpirun."""
     launcher = [ROOT / "ci/mpirun", ranks] if ranks else []

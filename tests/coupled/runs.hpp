@@ -14,6 +14,7 @@
 #include "src/run/driver.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/document.hpp"
+#include "tests/replica.hpp"
 
 namespace spindrift::coupling::test {
 
@@ -33,8 +34,13 @@ class Folder {
 
 inline std::string input(const std::string& name) { return std::string(SPINDRIFT_SOURCE_DIR "/inputs/") + name; }
 
-inline io::Summary run_scene(const std::string& file, const std::vector<std::string>& overrides, const std::filesystem::path& out,
+/// With particles the start is that of the replica: tests/replica.hpp
+inline io::Summary run_scene(const std::string& file, std::vector<std::string> overrides, const std::filesystem::path& out,
                              const run::RunSettings& settings = {.quiet = true}) {
+  const testing::Replica replica = testing::replica();
+  if (replica.seed > 0 && scene::load(file, overrides).given("sea.particles"))
+    overrides.insert(overrides.end(), {"sea.particles.jitter=" + std::to_string(replica.jitter),
+                                       "sea.particles.jitter_seed=" + std::to_string(replica.seed)});
   scene::Document document = scene::load(file, overrides);
   FloatingSystem floating(read_scenario(document));
   const Start start = make_start(floating);

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "kernels/base/constants.hpp"
+#include "tests/replica.hpp"
 #include "tests/src/aero/flow/flows.hpp"
 
 using namespace spindrift;
@@ -52,7 +53,7 @@ double held(int n, double Spectrum::*when) {
 
 /// Velocities of random solenoidal modes with that energy in each shell of wave numbers, at cell centres [m/s].
 std::vector<std::array<double, 3>> modes(int n) {
-  std::mt19937_64 random(7);
+  std::mt19937_64 random(7 + spindrift::testing::replica().seed);
   std::normal_distribution<double> normal;
   const int top = n / 2 - 1;
   using C = std::complex<double>;

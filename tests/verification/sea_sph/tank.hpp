@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "kernels/base/random.hpp"
 #include "src/sea/sph/lattice.hpp"
 #include "src/sea/sph/sea_sph.hpp"
+#include "tests/replica.hpp"
 
 namespace spindrift::sph {
 
@@ -25,7 +27,14 @@ struct Tank {
   double surface() const { return (rows - 0.5) * p.spacing; }
   double bottom() const { return -0.5 * p.spacing; }
 
-  void add_water_to(std::vector<Seed<2>>& seeds) const { add_water_at_rest<2>(seeds, {0, 0}, p, {0, 0}, {columns, rows}); }
+  void add_water_to(std::vector<Seed<2>>& seeds) const {
+    const std::size_t first = seeds.size();
+    add_water_at_rest<2>(seeds, {0, 0}, p, {0, 0}, {columns, rows});
+    const testing::Replica replica = testing::replica();
+    Random random(replica.seed);
+    for (std::size_t n = first; n < seeds.size(); ++n)
+      for (double& x : seeds[n].position) x += replica.jitter * p.spacing * (2.0 * random.uniform() - 1.0);
+  }
   /// `modified`: with ghost nodes mirrored in the walls' surfaces, half a spacing inside their first layer.
   void add_walls_to(std::vector<Seed<2>>& seeds, int length, int height, bool modified = false) const {
     const std::size_t first = seeds.size();
