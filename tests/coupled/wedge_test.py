@@ -5,7 +5,7 @@ import math
 import os
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, ROOT, spindrift, starts
 
 DENSITY, GRAVITY, HALF_WIDTH, APEX = 1000.0, 9.81, 0.5, 0.01
 # Zhao & Faltinsen (1993), J. Fluid Mech. 246, 593, table 2: force per width over rho V^3 t, by deadrise in degrees.
@@ -13,7 +13,7 @@ FORCE = {20: 42.485, 30: 14.139, 40: 5.477}
 
 
 class Wedge(Folder):
-    def force_over_theory(self, deadrise, speed, spacing):
+    def force_over_theory(self, deadrise, speed, spacing, start):
         """Mean force, less buoyancy, while the wetted half width of Wagner's theory is between a quarter of the wedge's and the whole of it: sound that
         runs between wedge and bed makes a single value swing by a third at the scene's spacing."""
         slope = math.tan(math.radians(deadrise))
@@ -21,7 +21,7 @@ class Wedge(Folder):
         done = spindrift("run", ROOT / "inputs/validation/wedge_entry/wedge_entry.toml", "--out", self.out, "--overwrite", "--no-report", "--quiet",
                          settings=[f"bodies.wedge.cylinders[0].start_m=[0.0, 0.0, {APEX + HALF_WIDTH * slope}]", f"sea.particles.spacing_m={spacing}",
                                    f"bodies.wedge.velocity_m_s=[0.0, 0.0, {-speed}]", f"joints.rail.translation.speed_m_s={-speed}",
-                                   f"time.window_s={end / 80}", f"time.end_s={end / 80 * 88}"],
+                                   f"time.window_s={end / 80}", f"time.end_s={end / 80 * 88}", *start],
                          timeout=3600, env={**os.environ, "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         force = theory = 0.0
@@ -37,14 +37,17 @@ class Wedge(Folder):
 
 class Fast(Wedge):
     def test_a_wedge_that_enters_water_meets_the_force_of_the_similarity_solution(self):
-        self.assertAlmostEqual(self.force_over_theory(30, 4.0, 0.02), 1.0, delta=0.10)
+        for start in starts():   # six jittered starts: 0.973 to 1.017
+            self.assertAlmostEqual(self.force_over_theory(30, 4.0, 0.02, start), 1.0, delta=0.10)
 
 
 class Nightly(Wedge):
     def test_so_do_blunter_sharper_and_faster_ones_and_finer_particles(self):
-        for deadrise, speed, spacing in ((20, 4.0, 0.02), (40, 4.0, 0.02), (30, 10.0, 0.02), (30, 4.0, 0.01)):
+        # Four jittered starts: 0.931 to 0.982, 0.928 to 0.998, 0.941 to 1.026; of fine particles 0.973 to 0.985. So coarse ones are judged by the mean of three.
+        for deadrise, speed, spacing, count in ((20, 4.0, 0.02, 3), (40, 4.0, 0.02, 3), (30, 10.0, 0.02, 3), (30, 4.0, 0.01, 1)):
             with self.subTest(deadrise=deadrise, speed=speed, spacing=spacing):
-                self.assertAlmostEqual(self.force_over_theory(deadrise, speed, spacing), 1.0, delta=0.10)
+                found = [self.force_over_theory(deadrise, speed, spacing, start) for start in starts(count)]
+                self.assertAlmostEqual(sum(found) / count, 1.0, delta=0.10)
 
 
 if __name__ == "__main__":

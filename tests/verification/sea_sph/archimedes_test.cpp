@@ -11,6 +11,7 @@
 #include "src/sea/sph/sea_sph.hpp"
 #include "src/sea/sph/tank.hpp"
 #include "tests/kernels/rigid/surfaces.hpp"
+#include "tests/replica.hpp"
 
 using namespace spindrift;
 using namespace spindrift::sph;
@@ -53,10 +54,11 @@ struct Lift {
 
 /// wetted: surface of the body under water [m2, m].
 template <int dim>
-Lift lift_of(const Held& held, double spacing, double wetted, double duration) {
+Lift lift_of(const Held& held, double spacing, double wetted, double duration, testing::Replica start = testing::replica()) {
   constexpr Cut cut = dim == 2 ? Cut::plane : Cut::space;
   TankPlan plan;
   plan.depth = 3.0, plan.top = 1.5;
+  plan.jitter = start.jitter, plan.jitter_seed = start.seed;
   const double half = dim == 2 ? 3.0 : 2.0;
   plan.x = plan.y = {-half, half};
   Motion motion;
@@ -119,11 +121,17 @@ TEST_CASE("water lifts held bodies of the plane by Archimedes' force from the fi
   };
   const Case round{{cylinder, -0.25, 0.0, offset}, 3.6}, level{{box, -0.1, 0.0, offset}, 3.8},
       leaning{{box, -0.1, 0.5, offset}, 3.8};
+  constexpr int starts = 5;  // one layer is 0.034 to 0.049 over as many, too near its bar
   for (const Case& c : {round, level, leaning}) {
-    const Lift lift = lift_of<2>(c.held, spacing, c.wetted, 1.0);
-    CAPTURE(offset[0], offset[1], c.held.tilt, lift.first, lift.settled, lift.layer);
-    CHECK(lift.first == Approx(1.0).margin(0.05));
-    CHECK(std::abs(lift.layer) < 0.05);
+    double layer = 0.0;
+    for (int n = 0; n < starts; ++n) {
+      const Lift lift = lift_of<2>(c.held, spacing, c.wetted, 1.0, testing::replica(n, starts));
+      CAPTURE(offset[0], offset[1], c.held.tilt, lift.first, lift.settled, lift.layer);
+      CHECK(lift.first == Approx(1.0).margin(0.05));
+      layer += lift.layer / starts;
+    }
+    CAPTURE(offset[0], offset[1], c.held.tilt, layer);
+    CHECK(std::abs(layer) < 0.05);
   }
 }
 
@@ -190,6 +198,6 @@ TEST_CASE("water of the plane lifts the outlines of bodies of triangles by Archi
     const Lift lift = lift_of<2>({mesh, -0.2, 0.2, {0.3, 0.2}}, 0.12, wetted, 1.0);
     std::printf("outline of a %s: lift %.4f (at the first step %.4f)\n", name, lift.settled, lift.first);
     CAPTURE(name, lift.settled, lift.first);
-    CHECK(lift.settled == Approx(1.0).margin(0.02));
+    CHECK(lift.settled == Approx(1.0).margin(0.02));  // five jittered starts: 1.003 to 1.004 and 1.004 to 1.005
   }
 }
