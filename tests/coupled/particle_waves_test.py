@@ -9,7 +9,7 @@ import statistics
 import sys
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, REPLICA, ROOT, spindrift
 
 SCENE = ROOT / "inputs/validation/wave_tank/small_tank.toml"
 HEIGHT, PERIOD = 0.12, 1.5
@@ -24,7 +24,7 @@ loader.exec_module(wave_analysis)
 class ParticleWaves(Folder):
     def run_scene(self, name, *changes):
         out = self.path / name
-        done = spindrift("run", SCENE, "--out", out, "--no-report", "--quiet", settings=[*COARSE, *changes], env={**os.environ, "OMP_NUM_THREADS": "1"})
+        done = spindrift("run", SCENE, "--out", out, "--no-report", "--quiet", settings=[*COARSE, *changes, *REPLICA], env={**os.environ, "OMP_NUM_THREADS": "1"})
         self.assertEqual(done.returncode, 0, done.stderr)
         return out
 
@@ -35,9 +35,10 @@ class ParticleWaves(Folder):
     def test_a_flap_makes_biesels_height_and_the_speed_of_linear_theory(self):
         out = self.run_scene("flap", "waves.model=airy", "sea.wavemaker.type=flap", "time.end_s=7.5")
         found = wave_analysis.analyse(out, 6.0, 7.5)
-        self.assertAlmostEqual(found["height_ratio"], 1.0, delta=0.03)
-        self.assertAlmostEqual(found["phase_speed_ratio"], 1.0, delta=0.02)
-        self.assertLess(found["reflection"], 0.03)
+        print("flap:", {key: round(found[key], 4) for key in ("height_ratio", "phase_speed_ratio", "reflection")}, flush=True)
+        self.assertAlmostEqual(found["height_ratio"], 1.0, delta=0.03)       # four jittered starts: 1.010 to 1.020
+        self.assertAlmostEqual(found["phase_speed_ratio"], 1.0, delta=0.02)  # 1.006 to 1.010
+        self.assertLess(found["reflection"], 0.03)                           # 0.008 to 0.011
 
     def test_the_analysis_says_what_a_run_lacks(self):
         scene = "[environment]\nwater_depth_m = 1.0\ngravity_m_s2 = 9.81\n[waves]\nheight_m = 0.1\nperiod_s = 1.5\n"
@@ -53,8 +54,9 @@ class ParticleWaves(Folder):
 
     def test_a_sea_state_has_its_significant_height_and_its_seed_decides_it(self):
         long = self.run_scene("seven", "waves.model=jonswap", "waves.seed=7", "time.end_s=15.0")
-        for gauge in ("g1", "g3", "g5"):  # seven peak periods: the sample itself scatters by more than the gauges do
+        for gauge in ("g1", "g3", "g5"):  # seven peak periods: the sample itself scatters by more than the gauges do; four jittered starts: 0.91 to 0.96
             eta = [e for t, e in self.series(long, f"{gauge}.elevation_m") if t > 4.0]
+            print(f"{gauge}: significant height {4.0 * statistics.pstdev(eta) / HEIGHT:.4f} of the target", flush=True)
             self.assertAlmostEqual(4.0 * statistics.pstdev(eta) / HEIGHT, 1.0, delta=0.2)
         paddle = {}
         for name, seed, model in (("again", 7, "jonswap"), ("eight", 8, "jonswap"), ("full", 7, "pierson_moskowitz")):

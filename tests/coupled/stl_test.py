@@ -9,7 +9,7 @@ import struct
 import time
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import Folder, REPLICA, ROOT, spindrift
 
 SCENE = ROOT / "inputs/validation/stl_buoy"
 
@@ -54,7 +54,7 @@ def box_stl(low, high):
 
 class Buoy(Folder):
     def run_scene(self, name, *arguments, scene=SCENE / "stl_buoy.toml", settings=(), threads=1):
-        done = spindrift("run", scene, "--out", self.path / name, "--no-report", "--quiet", *arguments, settings=settings, timeout=1800,
+        done = spindrift("run", scene, "--out", self.path / name, "--no-report", "--quiet", *arguments, settings=[*settings, *REPLICA], timeout=1800,
                          env={**os.environ, "OMP_NUM_THREADS": str(threads)})
         self.assertEqual(done.returncode, 0, done.stderr)
         return (self.path / name / "history.csv").read_text()
@@ -86,7 +86,7 @@ class Fast(Buoy):
         rows = [row for row in csv.DictReader(self.run_scene("whole", scene=scene).splitlines()) if float(row["time_s"]) > 0.2]
         heave = sum(float(row["box.z_m"]) for row in rows) / len(rows)
         print(f"box in the plane: mean heave {1e3 * heave:.2f} mm of 200 mm draft", flush=True)
-        self.assertLess(abs(heave), 0.02 * 0.2)
+        self.assertLess(abs(heave), 0.02 * 0.2)  # six jittered starts: 0.77 to 0.88 mm
         self.assertAlmostEqual(float(re.search(r"it floats (\S+) m from there", said)[1]), heave, delta=0.02 * 0.2)
 
     def test_a_changed_file_refuses_the_restart_by_its_name(self):
