@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from running import REPLICA, Runs, columns, spindrift
+from running import Runs, columns, spindrift
 
 HALF = ["sea.tank.y_m=[0.0, 1.2]", "sea.tank.sides_y=symmetric"]
 # A box and a sphere in one body, 0.8 m long, that floats 0.2 m deep; waves of linear theory as long as the tank, which repeats.
@@ -49,7 +49,7 @@ LINES = [f"moorings.{name}={{body='float', fairlead_m=[{x}, {y}, 0.0], anchor_m=
 
 class Half(Runs):
     def columns(self, name, settings, **more):
-        self.run_scene(SCENE, name, settings=[*settings, *REPLICA], **more)
+        self.run_scene(SCENE, name, settings=settings, **more)
         return columns(self.path / name / "history.csv")
 
     def test_a_held_float_is_lifted_as_by_archimedes(self):
@@ -72,7 +72,7 @@ class Half(Runs):
             span = np.ptp(own[column])
             difference = np.std(half[column] - own[column]) / span
             print(f"{column}: half and whole differ by {difference:.4f} of the span", flush=True)
-            self.assertLess(difference, 0.02, column)   # 0.0001 to 0.008
+            self.assertLess(difference, 0.02, column)   # 0.0001 to 0.008, within 0.0001 over starts jittered by 1e-4 of the spacing: not chaotic
         for column in ("sea.mass_kg", "sea.kinetic_energy_J", "sea.potential_energy_J"):   # of both halves
             self.assertAlmostEqual(half[column][-1] / own[column][-1], 1.0, delta=0.01)
         for lost in ("y_m", "roll_deg", "yaw_deg"):
