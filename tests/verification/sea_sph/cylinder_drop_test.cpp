@@ -127,6 +127,6 @@ TEST_CASE("filtering the density after Shepard every 50 or 100 steps leaves the 
   const Errors errors =
       depth_errors({.particles_per_radius = 9.0, .modified = false, .h_over_d = 1.5, .c0 = 40.0, .shepard_every = every});
   CAPTURE(every, text(errors));
-  for (double e : errors.computed) CHECK(std::abs(e) < 0.4);
+  for (double e : errors.computed) CHECK(std::abs(e) < 0.4);  // two jittered starts: at most 0.31
   CHECK(errors.computed.back() < errors.computed.front());
 }

@@ -100,6 +100,8 @@ TEST_CASE(
   CAPTURE(fine.arrival, fine.peaks[0], fine.peaks[1], fine.peaks[2], fine.peaks[3], fine.after);
   CHECK(coarse.arrival == Approx(2.43).epsilon(0.03));
   CHECK(fine.arrival == Approx(2.43).epsilon(0.03));
+  // Three jittered starts: 2.24 to 2.64 (coarse 1.1 to 1.7), arrivals within 0.04 %, the mean after 1.19. One start is not enough
+  // for this bar, which is the measurement's; the scene's own, 2.26, is near it.
   CHECK(fine.peaks[3] == Approx(2.61).epsilon(0.15));
   CHECK(coarse.peaks[3] < 0.8 * fine.peaks[3]);
   CHECK(fine.peaks[0] > 1.5 * coarse.peaks[0]);  // the front is as thin as its particles: no convergence over 1 ms
