@@ -290,20 +290,21 @@ inline void Worker::poll_if_due(std::int64_t now, bool nested) {
 void Worker::poll(bool nested) {
   const std::int64_t begin = Clock::now_ns();
   completions_.clear();
+  Messages::Polled polled;
   try {
-    if (!team_.messages.poll(completions_)) return;
+    polled = team_.messages.poll(completions_);
+    if (!polled.looked) return;
   } catch (const Messages::Failure& failure) {
     return team_.fail({team_.graph.recorded().comm.rank(), false, team_.graph.nodes()[failure.node].label, failure.what});
   }
-  const std::int64_t end = Clock::now_ns();
-  team_.last_poll_ns.store(end, std::memory_order_relaxed);
+  team_.last_poll_ns.store(Clock::now_ns(), std::memory_order_relaxed);
   nested_ = nested;
   for (const auto& completion : completions_) complete_message(completion);
   nested_ = false;
   if (auto notice = team_.messages.notice()) team_.fail(std::move(*notice));
-  if (nested) return;  // its time is the task's
-  times.poll_ns += end - begin;
-  if (!completions_.empty() && team_.recording) record(no_task, {0, 0, id_}, Activity::poll, begin, end, 0);
+  if (nested || polled.until_ns == 0) return;  // its time is the task's, or that of looking in vain: waiting
+  times.poll_ns += polled.until_ns - begin;
+  if (!completions_.empty() && team_.recording) record(no_task, {0, 0, id_}, Activity::poll, begin, polled.until_ns, 0);
 }
 
 void Worker::complete_message(const Messages::Completion& completion) {

@@ -116,13 +116,14 @@ void Messages::retire(int request) {
   node_of_[gap] = node_of_[last], bytes_of_[gap] = bytes_of_[last], posted_ns_[gap] = posted_ns_[last];
 }
 
-bool Messages::poll(std::vector<Completion>& done) {
-  if (busy_.test_and_set(std::memory_order_acquire)) return false;
+Messages::Polled Messages::poll(std::vector<Completion>& done) {
+  if (busy_.test_and_set(std::memory_order_acquire)) return {};
   struct Release {
     std::atomic_flag& flag;
     ~Release() { flag.clear(std::memory_order_release); }
   } release{busy_};
 
+  Polled polled{.looked = true};
   if (posted_.top() >= 0) {
     const std::int64_t now = Clock::now_ns();
     for (std::uint32_t node; (node = posted_.pop(0)) != ReadyQueue::none;) {
@@ -137,6 +138,7 @@ bool Messages::poll(std::vector<Completion>& done) {
         throw Failure{node, e.what()};
       } catch (...) { throw Failure{node, "an exception of unknown type"}; }
     }
+    polled.until_ns = Clock::now_ns();
   }
   if (active_ > 0) {
     int n = 0;
@@ -161,6 +163,7 @@ bool Messages::poll(std::vector<Completion>& done) {
       done.push_back({graph_.collectives[*call].node, 0, Clock::now_ns()});
       outstanding_.fetch_sub(1, std::memory_order_relaxed);
     }
+  if (!done.empty()) polled.until_ns = Clock::now_ns();
   if (control_request_ != MPI_REQUEST_NULL) {
     int received = 0;
     MPI_Test(&control_request_, &received, MPI_STATUS_IGNORE);
@@ -169,7 +172,7 @@ bool Messages::poll(std::vector<Completion>& done) {
       has_notice_.store(true, std::memory_order_release);
     }
   }
-  return true;
+  return polled;
 }
 
 std::optional<Notice> Messages::notice() {

@@ -48,8 +48,12 @@ class Messages {
 
   /// Any thread: the node's message may start. It does at the next poll.
   void post(std::uint32_t node);
-  /// Starts what was posted, adds what completed; false if another thread is at it.
-  bool poll(std::vector<Completion>& done);
+  struct Polled {
+    bool looked = false;        ///< false: another thread is at it
+    std::int64_t until_ns = 0;  ///< when the last message was started or completed; 0: none was
+  };
+  /// Starts what was posted, adds what completed.
+  Polled poll(std::vector<Completion>& done);
   /// Any thread: the collective call that completed last has been made; the next one may have its turn.
   void made_call() { turns_->made(); }
   /// Another rank's notice, once, after the poll that received it.

@@ -132,7 +132,7 @@ class ChromeWriter {
           gzprintf(file_.get(),
                    R"({"ph":"X","name":"%s","cat":"runtime","pid":%d,"tid":%d,"ts":%.3f,"dur":%.3f},)"
                    "\n",
-                   record.activity == Activity::idle ? "idle" : "completing messages", trace.rank, int(record.thread),
+                   record.activity == Activity::idle ? "waiting" : "completing messages", trace.rank, int(record.thread),
                    us(record.begin_ns), 1e-3 * double(record.end_ns - record.begin_ns));
   }
 

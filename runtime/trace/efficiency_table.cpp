@@ -34,7 +34,7 @@ void line(std::string& out, const char* name, double part, const std::string& re
 }
 
 void add_modules(std::string& out, const Efficiency& e) {
-  print(out, "  %-20s %12s %12s %12s %12s\n", "module", "busy core-s", "idle before", "exposed", "alone s");
+  print(out, "  %-20s %12s %12s %12s %12s\n", "module", "busy core-s", "waiting for", "exposed", "alone s");
   for (const ModuleTimes& m : e.modules)
     print(out, "  %-20.20s %12s %12s %12s %12s\n", m.module.c_str(), text(m.busy_s).c_str(), text(m.idle_s).c_str(),
           text(m.exposed_s).c_str(), text(m.alone_s).c_str());
@@ -70,11 +70,11 @@ std::string efficiency_table(const Efficiency& e) {
   line(out, "communication efficiency", e.communication, "= serialisation x transfer");
   line(out, "  serialisation", e.serialisation);
   line(out, "  transfer", e.transfer);
-  std::string idle = text(e.idle_s) + " core-s";
+  std::string waiting = text(e.idle_s) + " core-s";
   if (!std::isnan(e.exposed_s))
-    idle += ": messages under way " + text(e.exposed_s) + ", late ranks " + text(e.partner_wait_s) + ", own tasks " +
+    waiting += ": messages under way " + text(e.exposed_s) + ", late ranks " + text(e.partner_wait_s) + ", own tasks " +
             text(e.idle_s - e.exposed_s - e.partner_wait_s);
-  line(out, "idle", part(e.idle_s), idle);
+  line(out, "waiting", part(e.idle_s), waiting);
   line(out, "completing messages", part(e.poll_s));
   line(out, "runtime overhead", part(e.overhead_s));
   add_modules(out, e);
@@ -82,7 +82,7 @@ std::string efficiency_table(const Efficiency& e) {
         ("x " + text(e.overlap_gain, "%.3f")).c_str());
   add_critical_path(out, e);
   if (e.recorded < 0.995)
-    print(out, "  records cover %.1f %% of the run; the division of idle time is taken from that part\n", 100.0 * e.recorded);
+    print(out, "  records cover %.1f %% of the run; the division of waiting is taken from that part\n", 100.0 * e.recorded);
   return out;
 }
 

@@ -52,8 +52,8 @@ class RecordBuffer {
 struct ThreadTimes {
   std::int64_t wall_ns = 0;  ///< inside Executor::run
   std::int64_t task_ns = 0;  ///< inside tasks
-  std::int64_t idle_ns = 0;  ///< nothing to do
-  std::int64_t poll_ns = 0;  ///< completing messages
+  std::int64_t idle_ns = 0;  ///< waiting: nothing to do, polls in vain among it
+  std::int64_t poll_ns = 0;  ///< starting and completing messages
   std::uint64_t tasks = 0, steals = 0;
   std::int64_t overhead_ns() const { return wall_ns - task_ns - idle_ns - poll_ns; }  ///< the runtime's own work
 };

@@ -389,7 +389,7 @@ void SystemSimulation::describe_sides(io::Summary& summary, const runtime::Ledge
   for (const auto& [part, name, other] : {std::tuple{air_part, "air", "sea"}, std::tuple{sea_part, "sea", "air"}}) {
     const double *of = all.data() + 4 * part, core_s = of[1];
     spdlog::info(
-        "  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other idle and runtime; of {:.4g} core-s",
+        "  {} on {} rank{}: {:5.1f} % busy, {:5.1f} % waiting for the {}, {:5.1f} % other waiting and runtime; of {:.4g} core-s",
         name, of[0], of[0] == 1.0 ? "" : "s", 100.0 * of[2] / core_s, 100.0 * of[3] / core_s, other,
         100.0 * (core_s - of[2] - of[3]) / core_s, core_s);
     summary.efficiency.push_back(

@@ -395,7 +395,7 @@ class SystemRun(System):
         rows_of, ends = {}, {}
         for event in events:
             row = event["pid"], event.get("tid")
-            if event["ph"] == "X" and event["name"] != "idle":
+            if event["ph"] == "X" and event["name"] != "waiting":
                 rows_of.setdefault(row, []).append((event["ts"], event["ts"] + event["dur"], event["name"]))
             elif event["ph"] in "sf":
                 ends.setdefault(event["id"], {})[event["ph"]] = (row, event["ts"])

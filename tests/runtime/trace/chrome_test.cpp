@@ -34,7 +34,7 @@ std::vector<json> events_of(const std::vector<RankTrace>& traces, const std::str
 
 TEST_CASE("every record is a slice at its rank, row and time, its module as category", "[trace][fast]") {
   const auto slices = events_of(one_message(), "X");
-  REQUIRE(slices.size() == 6);  // a, send, receive, b and two idle times
+  REQUIRE(slices.size() == 6);  // a, send, receive, b and two waits
   std::map<std::string, json> by_name;
   for (const json& slice : slices) by_name[slice["name"]] = slice;
   const json& b = by_name["sea/b"];
@@ -47,7 +47,7 @@ TEST_CASE("every record is a slice at its rank, row and time, its module as cate
   CHECK(by_name["aero/receive"]["tid"] == 10000);
   CHECK(by_name["aero/receive"]["args"]["peer"] == 0);
   CHECK(by_name["aero/receive"]["args"]["bytes"] == 64);
-  CHECK(by_name["idle"]["cat"] == "runtime");
+  CHECK(by_name["waiting"]["cat"] == "runtime");
 }
 
 TEST_CASE("arrows lead from a send to its receive and from module to module", "[trace][fast]") {

@@ -104,7 +104,7 @@ TEST_CASE("a message hidden behind work is not exposed", "[trace][fast]") {
   CHECK(e.transfer == 1.0);
 }
 
-TEST_CASE("runtime overhead is what is neither work, idle nor message", "[trace][fast]") {
+TEST_CASE("runtime overhead is what is neither work, waiting nor message", "[trace][fast]") {
   SyntheticRank rank(0);
   rank.ran(rank.node("m/x"), 0, 7), rank.idle(8, 9);
   const Efficiency e = efficiency_of(std::vector{rank.trace(10)});
@@ -137,7 +137,7 @@ TEST_CASE("without records the totals stand and the rest is unknown", "[trace][f
   CHECK(of_sums.parallel == e.parallel);
 }
 
-TEST_CASE("a recorded part stands for the whole of idle time", "[trace][fast]") {
+TEST_CASE("a recorded part stands for the whole of waiting", "[trace][fast]") {
   auto traces = one_message();
   for (RankTrace& trace : traces)
     for (ThreadTimes& times : trace.threads) times.wall_ns *= 2, times.task_ns *= 2, times.idle_ns *= 2;
@@ -155,9 +155,10 @@ TEST_CASE("the product of the factors is the parallel efficiency", "[trace][fast
 
 TEST_CASE("the table names every figure and fits its width", "[trace][fast]") {
   const std::string table = efficiency_table(efficiency_of(one_message()));
-  for (const char* name : {"parallel efficiency", "load balance", "communication efficiency", "serialisation", "transfer", "idle",
-                           "runtime overhead", "overlap gained", "critical path", "sea/b", "aero"})
+  for (const char* name : {"parallel efficiency", "load balance", "communication efficiency", "serialisation", "transfer", "waiting",
+                           "waiting for", "runtime overhead", "overlap gained", "critical path", "sea/b", "aero"})
     CHECK_THAT(table, Catch::Contains(name));
+  CHECK_THAT(table, !Catch::Contains("idle"));
   CHECK_THAT(table, Catch::Contains("transfer                       75.0 %"));
   for (std::size_t at = 0; at < table.size();) {
     const std::size_t end = table.find('\n', at);
