@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 
 #include "runtime/mpi/exchange.hpp"
+#include "src/aero/first_cells.hpp"
+#include "src/io/collective.hpp"
 
 namespace spindrift::run {
 
+namespace {
+
+/// Of all ranks on the first one, of a flow with a turbulence model, as its last residual left it; else none. Collective.
 aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::World& world) {
   if (solver.setting().turbulence == "none") return {};
-  aero::FirstCells mine, all;
+  aero::FirstCells mine;
   for (const aero::FlowTile& tile : solver.tiles())
     for (const aero::WallPoint& p : solver.wall_points(tile)) {
       const aero::BoundaryCondition& c = of(solver.judgement().conditions()[std::size_t(p.patch)].condition);
@@ -18,7 +23,11 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   runtime::Packer packer;
   packer.put(std::span<const aero::FirstCell>(mine.resolved));
   packer.put(std::span<const aero::FirstCell>(mine.by_law));
-  for (const runtime::Bytes& bytes : runtime::exchange_all(world.comm, packer.take())) {
+  std::vector<runtime::Bytes> parcels{std::size_t(world.size)};
+  parcels[0] = packer.take();
+  aero::FirstCells all;
+  for (const runtime::Bytes& bytes : runtime::exchange(world.comm, parcels)) {
+    if (bytes.empty()) continue;  // all but the first rank have no parcels
     runtime::Unpacker from(bytes);
     for (auto* to : {&all.resolved, &all.by_law}) {
       const auto cells = from.many<aero::FirstCell>();
@@ -28,7 +37,7 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   return all;
 }
 
-std::string unresolved_walls(const aero::FirstCells& cells) {
+std::string why_unresolved(const aero::FirstCells& cells) {
   constexpr double log_layer = 30.0;
   double area = 0.0, off = 0.0;
   for (const aero::FirstCell& c : cells.resolved) area += c.area, off += c.y_plus > log_layer ? c.area : 0.0;
@@ -37,6 +46,18 @@ std::string unresolved_walls(const aero::FirstCells& cells) {
       "y+ of first cells is {} at no_slip walls, above {:g} over {:.0f} % of their area: their friction is a fraction of what it "
       "should be, and the loads are no answer; take first cells of y+ up to 5, or condition = \"wall_function\"",
       describe(cells.resolved), log_layer, 100.0 * off / area);
+}
+
+}  // namespace
+
+std::string unresolved_walls(const aero::FlowSolver& solver, const runtime::World& world) {
+  const aero::FirstCells cells = first_cells(solver, world);
+  return io::from_root(world.comm, world.rank == 0 ? why_unresolved(cells) : "");
+}
+
+std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const runtime::World& world) {
+  const aero::FirstCells cells = first_cells(solver, world);
+  return world.rank == 0 ? doubts_of(cells) : std::vector<std::string>();
 }
 
 }  // namespace spindrift::run

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "runtime/mpi/exchange.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/coarsen.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
@@ -91,4 +92,63 @@ TEST_CASE("a march that begins with a coarser grid's flow ends where the other d
   CHECK(b.krylov_total < a.krylov_total);
   CHECK(sequenced.solver->rows().back().force[0] ==
         Approx(plain.solver->rows().back().force[0]).margin(1e-4 * 0.5 * 1.225 * 34.0 * 34.0));
+}
+
+namespace {
+
+/// Turbulent, with nothing that is alike in two cells.
+Case uneven(MultiBlockGrid grid, const TilingOptions& tiling, int ranks = 1, int rank = 0) {
+  FlowSetting s = air(0.2);
+  s.viscous = true, s.turbulence = "sa", s.gas.viscosity.mu0 = 1e-3;
+  Case c(std::move(grid), s, {}, tiling, ranks, rank);
+  c.solver->start([](const Eigen::Vector3d& x) {
+    return gas::Primitive<double>{100.0 * std::sin(5.0 * x[0]), 60.0 + std::cos(7.0 * x[1]), x[2] * x[0], x[0] - x[1],
+                                  std::exp(x[2])};
+  });
+  return c;
+}
+
+/// Ranks that share coarse and fine tiles out leave in their tiles the bits that one rank leaves there.
+void same_bits_on(int ranks) {
+  const int rank = runtime::rank_in(MPI_COMM_WORLD);
+  const MultiBlockGrid fine = split(cartesian_box({.ni = 32, .nj = 16, .nk = 16}), 2, {});
+  const TilingOptions cut{.across_j = 4, .across_k = 4, .normal = 4};
+  Case one_from = uneven(halved(fine), cut), one_to = uneven(fine, cut);
+  Case from = uneven(halved(fine), cut, ranks, rank), to = uneven(fine, cut, ranks, rank);
+  const std::size_t whole = transfer(*one_from.solver, *one_to.solver);
+  const std::size_t held = transfer(*from.solver, *to.solver, {}, MPI_COMM_WORLD);
+  CHECK(whole == std::size_t(8 * one_from.solver->unknowns()) * 16 * 8 * 8);
+  CHECK(held < whole);
+  const auto saved_of_one = one_to.solver->restart().save_tiles(), saved = to.solver->restart().save_tiles();
+  REQUIRE(to.solver->tiles().size() == saved.size());
+  for (std::size_t n = 0; n < saved.size(); ++n) CHECK(saved[n] == saved_of_one[std::size_t(to.solver->tiles()[n].index)]);
+}
+
+}  // namespace
+
+TEST_CASE("a coarse flow that two ranks share begins the fine one with the bits of one rank", "[flow][mpi2]") { same_bits_on(2); }
+TEST_CASE("a coarse flow that four ranks share begins the fine one with the bits of one rank", "[flow][mpi4]") {
+  same_bits_on(4);
+}
+
+TEST_CASE("of a coarse flow a rank of eight holds what is under its own tiles", "[aero][flow][fast]") {
+  const MultiBlockGrid fine = cartesian_box({.ni = 64, .nj = 32, .nk = 32});
+  const TilingOptions cut{.across_j = 8, .across_k = 8, .normal = 8};
+  Case from = uneven(halved(fine), cut), to = uneven(fine, cut);
+  const Tiling &coarse_tiles = from.solver->grid().tiling(), &tiles = to.solver->grid().tiling();
+  REQUIRE(tiles.size() >= 32);
+  const long whole = 32 * 16 * 16;
+  long most = 0;
+  for (int rank = 0; rank < 8; ++rank) {
+    std::vector<int> own;
+    for (int t = 0; t < tiles.size(); ++t)
+      if (t * 8 / tiles.size() == rank) own.push_back(t);
+    long held = 0;
+    for (const WindowOfTile& w : cells_under(coarse_tiles, tiles, own)) held += w.cells.cells();
+    most = std::max(most, held);
+  }
+  CAPTURE(most, whole, tiles.size(), coarse_tiles.size());
+  CHECK(3 * most < whole);
+  // The whole on one rank is held once.
+  CHECK(transfer(*from.solver, *to.solver) == std::size_t(whole * from.solver->unknowns()) * sizeof(double));
 }
