@@ -297,12 +297,14 @@ void Worker::poll(bool nested) {
   } catch (const Messages::Failure& failure) {
     return team_.fail({team_.graph.recorded().comm.rank(), false, team_.graph.nodes()[failure.node].label, failure.what});
   }
-  team_.last_poll_ns.store(Clock::now_ns(), std::memory_order_relaxed);
+  const std::int64_t end = Clock::now_ns();
+  team_.last_poll_ns.store(end, std::memory_order_relaxed);
+  if (!nested && !waits_) times.idle_ns += end - (polled.until_ns == 0 ? begin : polled.until_ns);  // looked in vain
   nested_ = nested;
   for (const auto& completion : completions_) complete_message(completion);
   nested_ = false;
   if (auto notice = team_.messages.notice()) team_.fail(std::move(*notice));
-  if (nested || polled.until_ns == 0) return;  // its time is the task's, or that of looking in vain: waiting
+  if (nested || polled.until_ns == 0) return;  // nested: its time is the task's
   times.poll_ns += polled.until_ns - begin;
   if (!completions_.empty() && team_.recording) record(no_task, {0, 0, id_}, Activity::poll, begin, polled.until_ns, 0);
 }
@@ -376,6 +378,7 @@ std::uint32_t Worker::steal(std::int64_t now, bool from_anyone) {
 
 /// Nothing of its own to do: messages first, then others' tasks, then rest. no_node when the run has ended.
 std::uint32_t Worker::wait() {
+  waits_ = true;
   const std::int64_t begin = Clock::now_ns(), polled_before = times.poll_ns;
   std::uint32_t found = no_node;
   std::int64_t now = begin;
@@ -387,6 +390,7 @@ std::uint32_t Worker::wait() {
     now = Clock::now_ns();
   }
   now = Clock::now_ns();
+  waits_ = false;
   times.idle_ns += now - begin - (times.poll_ns - polled_before);
   if (team_.recording) record(no_task, {0, 0, id_}, Activity::idle, begin, now, 0);
   return found;

@@ -90,6 +90,7 @@ class alignas(64) Worker {
   const int id_;
   const bool keeps_next_;         ///< not in a random schedule
   bool nested_ = false;           ///< polling inside a task
+  bool waits_ = false;            ///< in wait(), which sums up its own time
   std::uint32_t next_ = no_node;  ///< ready and first in turn, without passing through the queue
   struct Progress {
     std::uint64_t beats = 0;
