@@ -242,4 +242,22 @@ Span::~Span() {
   if (ledger_) ledger_->leave(kind_ == Kind::wait);
 }
 
+void Ledger::enter_phase(std::string_view name) { open_phases_.push_back({std::string(name), Clock::now_ns()}); }
+
+void Ledger::leave_phase() {
+  const OpenSpan phase = std::move(open_phases_.back());
+  open_phases_.pop_back();
+  const std::int64_t ns = Clock::now_ns() - phase.begin_ns;
+  phases_[phase.label] += ns - phase.inner_ns;
+  if (!open_phases_.empty()) open_phases_.back().inner_ns += ns;
+}
+
+Phase::Phase(std::string_view name) : ledger_(active) {
+  if (ledger_) ledger_->enter_phase(name);
+}
+
+Phase::~Phase() {
+  if (ledger_) ledger_->leave_phase();
+}
+
 }  // namespace spindrift::runtime

@@ -66,6 +66,11 @@ class Ledger {
   void enter(std::string_view label);
   void leave(bool waits);
 
+  /// Wall time [ns] of the first thread by Phase, without that of phases inside.
+  const std::map<std::string, std::int64_t, std::less<>>& phases() const { return phases_; }
+  void enter_phase(std::string_view name);
+  void leave_phase();
+
  private:
   struct Live {
     const Team* team;
@@ -114,7 +119,9 @@ class Ledger {
     std::string label;
     std::int64_t begin_ns, inner_ns = 0;
   };
-  std::vector<OpenSpan> open_;  ///< the innermost last
+  std::vector<OpenSpan> open_;         ///< the innermost last
+  std::vector<OpenSpan> open_phases_;  ///< likewise
+  std::map<std::string, std::int64_t, std::less<>> phases_;
   Keep keep_ = Keep::records;
   std::int64_t window_begin_ns_ = 0;
   bool in_window_ = false;
@@ -135,6 +142,19 @@ class Span {
  private:
   Ledger* ledger_;
   Kind kind_;
+};
+
+/// A part of the run as its wall time sees it, tasks and all: start-up, windows, output. Phases divide the time, one inside the
+/// other or one after the other; spans divide the work. Outside of tasks; nothing where nobody counts.
+class Phase {
+ public:
+  explicit Phase(std::string_view name);
+  ~Phase();
+  Phase(const Phase&) = delete;
+  Phase& operator=(const Phase&) = delete;
+
+ private:
+  Ledger* ledger_;
 };
 
 }  // namespace spindrift::runtime

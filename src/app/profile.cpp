@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "runtime/mpi/stop_request.hpp"
+#include "runtime/trace/clock.hpp"
 #include "runtime/trace/efficiency.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/scene_run.hpp"
@@ -53,21 +54,45 @@ std::vector<Mode> modes(int ranks, int air_ranks) {
 struct Profile {
   std::string name;
   int ranks = 1, threads = 1, air_ranks = 0, windows = 0;
-  double mean_s = 0.0, median_s = 0.0;                ///< wall of a window
-  std::map<std::string, double> parts;                ///< [core-s]
-  double busy_s = 0.0;                                ///< of them, in tasks
-  double load_balance = 1.0, communication = 1.0;     ///< parallel efficiency is their product
-  double start_s = 0.0, output_s = 0.0, run_s = 0.0;  ///< of the whole run
-  double all_s = 0.0;                                 ///< [core-s] of a window: wall x cores, summed over the ranks
+  double mean_s = 0.0, median_s = 0.0;             ///< wall of a window
+  std::map<std::string, double> parts;             ///< [core-s]
+  double busy_s = 0.0;                             ///< of them, in tasks
+  double load_balance = 1.0, communication = 1.0;  ///< parallel efficiency is their product
+  std::map<std::string, double> run_parts;         ///< [core-s] of the whole run, from reading the scene on, by phase
+  double run_s = 0.0, run_core_s = 0.0;            ///< of it: wall; wall x cores, summed over the ranks
+  double all_s = 0.0;                              ///< [core-s] of a window: wall x cores, summed over the ranks
   Json timeline;
   double efficiency() const { return load_balance * communication; }
   /// Parts over wall x cores. Modules come from the records of tasks, the rest from the sums of threads and windows.
-  double accounted() const {
-    double sum = 0.0;
-    for (const auto& [name, s] : parts) sum += s;
-    return sum / all_s;
+  double accounted() const { return sum(parts) / all_s; }
+  /// The same of the whole run: phases over all of its time.
+  double run_accounted() const { return sum(run_parts) / run_core_s; }
+
+ private:
+  static double sum(const std::map<std::string, double>& of) {
+    double all = 0.0;
+    for (const auto& [name, s] : of) all += s;
+    return all;
   }
 };
+
+double seconds_since(std::int64_t begin_ns) { return 1e-9 * double(runtime::Clock::now_ns() - begin_ns); }
+
+const std::vector<std::string> phases{"start-up", "settling", "first windows", "windows", "output", "sums and records"};
+
+/// What one rank's clock saw of a run, in seconds of wall by phase.
+struct Phases {
+  std::map<std::string, double> wall_s;
+  std::int64_t left_ns = 0;  ///< when all was known, and the run was taken down
+};
+
+/// The ledger's phases; of its windows those that are counted are a phase by themselves.
+void add_phases(Phases& to, const runtime::Ledger& ledger) {
+  for (const auto& [name, ns] : ledger.phases()) to.wall_s[name] += 1e-9 * double(ns);
+  double counted = 0.0;
+  for (const runtime::WindowRecord& window : ledger.windows()) counted += 1e-9 * double(window.wall_ns);
+  to.wall_s["first windows"] = to.wall_s["windows"] - counted, to.wall_s["windows"] = counted;
+}
 
 double median(std::vector<double> values) {
   std::ranges::sort(values);
@@ -132,7 +157,9 @@ void add_rest(Profile& p, const runtime::Ledger& ledger, const runtime::Parts& p
   p.all_s = all[4] / p.windows;
 }
 
-Profile measured(const ProfileArguments& arguments, const Mode& mode, const runtime::World& world, const fs::path& folder) {
+Profile windows_of(const ProfileArguments& arguments, const Mode& mode, const runtime::World& world, const fs::path& folder,
+                   Phases& seen) {
+  const std::int64_t begin_ns = runtime::Clock::now_ns();
   std::vector<std::string> overrides = arguments.overrides;
   overrides.insert(overrides.end(), mode.overrides.begin(), mode.overrides.end());
   const ReadyScene ready = read_scene(arguments.scene, overrides);
@@ -146,8 +173,14 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   settings.keep_runs = true, settings.windows = std::pair<std::int64_t, std::int64_t>(warm_up + 1, last);
   runtime::StopRequest stop(scenario.runtime.wall_limit_s, directory.stop());
   run::Driver driver(directory, parts, settings, stop);
-  run::SystemSimulation simulation(*ready.floating, ready.start.state, parts, settings.records(), mode.moves);
-  const io::Summary summary = driver.run(simulation);
+  seen.wall_s["start-up"] = seconds_since(begin_ns);
+  std::optional<run::SystemSimulation> simulation;
+  {
+    const runtime::Phase start("start-up");
+    simulation.emplace(*ready.floating, ready.start.state, parts, settings.records(), mode.moves);
+  }
+  const io::Summary summary = driver.run(*simulation);
+  const std::int64_t ended_ns = runtime::Clock::now_ns();
   if (summary.exit_code != 0) throw io::MachineFailure(fmt::format("{}: {}", mode.name, summary.exit_reason));
 
   Profile p{.name = mode.name, .ranks = world.size, .threads = summary.threads};
@@ -159,13 +192,7 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   p.median_s = median(walls);
   for (const double wall : walls) p.mean_s += wall / p.windows;
   add_rest(p, driver.ledger(), parts, p.threads);
-  p.run_s = summary.wall_seconds;
   if (world.rank == 0 || parts.world().rank == 0) {
-    for (const runtime::RankTrace& trace : driver.traces())
-      for (const runtime::TraceNode& node : trace.nodes) {
-        if (node.label.ends_with("/start")) p.start_s += 1e-9 * double(node.cost.total_ns);
-        if (node.label.starts_with("output/")) p.output_s += 1e-9 * double(node.cost.total_ns);
-      }
     add_tasks(p, driver.traces());
     const runtime::RankRecording own = driver.ledger().recording(0);
     std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = 0;
@@ -173,6 +200,24 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
       if (run.window == last) begin = std::min(begin, run.begin_ns), end = std::max(end, run.begin_ns + run.wall_ns);
     if (end > begin) p.timeline = last_window(driver.traces(), begin, end);
   }
+  add_phases(seen, driver.ledger());
+  seen.left_ns = runtime::Clock::now_ns();
+  seen.wall_s["sums and records"] += 1e-9 * double(seen.left_ns - ended_ns);
+  return p;
+}
+
+Profile measured(const ProfileArguments& arguments, const Mode& mode, const runtime::World& world, const fs::path& folder) {
+  const std::int64_t begin_ns = runtime::Clock::now_ns();
+  Phases seen;
+  Profile p = windows_of(arguments, mode, world, folder, seen);
+  MPI_Barrier(world.comm);  // rank 0 reads the records of all
+  seen.wall_s["sums and records"] += seconds_since(seen.left_ns);
+  p.run_s = seconds_since(begin_ns);
+  std::vector<double> mine{p.run_s * p.threads};
+  for (const std::string& phase : phases) mine.push_back(seen.wall_s[phase] * p.threads);
+  const std::vector<double> all = runtime::summed(world.comm, mine);
+  p.run_core_s = all[0];
+  for (std::size_t n = 0; n < phases.size(); ++n) p.run_parts[phases[n]] = all[n + 1];
   return p;
 }
 
@@ -196,9 +241,9 @@ void print(const std::vector<Profile>& all) {
     row(name + " [core-ms]", [&](const Profile& p) { return p.parts.count(name) ? 1e3 * p.parts.at(name) : 0.0; });
   row("parts over wall x cores [%]", [](const Profile& p) { return 100.0 * p.accounted(); });
   fmt::print("\nof the run");
-  row("start-up [s]", [](const Profile& p) { return p.start_s; });
-  row("output [s]", [](const Profile& p) { return p.output_s; });
-  row("all [s]", [](const Profile& p) { return p.run_s; });
+  for (const std::string& phase : phases) row(phase + " [core-s]", [&](const Profile& p) { return p.run_parts.at(phase); });
+  row("wall [s]", [](const Profile& p) { return p.run_s; });
+  row("parts over wall x cores [%]", [](const Profile& p) { return 100.0 * p.run_accounted(); });
   fmt::print("\n");
 }
 
@@ -215,9 +260,10 @@ Json figures_of(const Profile& p) {
             {"communication_efficiency", p.communication},
             {"parts_core_s", p.parts},
             {"accounted", p.accounted()},
-            {"start_up_s", p.start_s},
-            {"output_s", p.output_s},
-            {"run_s", p.run_s}};
+            {"run_s", p.run_s},
+            {"run_core_s", p.run_core_s},
+            {"run_parts_core_s", p.run_parts},
+            {"run_accounted", p.run_accounted()}};
   if (!p.timeline.is_null()) json["timeline"] = p.timeline;
   return json;
 }
@@ -244,6 +290,7 @@ std::vector<std::string> sentences(const std::vector<Profile>& all) {
 }  // namespace
 
 int profile(const ProfileArguments& arguments, const runtime::World& world) {
+  const std::int64_t begin_ns = runtime::Clock::now_ns();
   io::start_log(world.rank, true);
   const fs::path folder = arguments.out.empty() ? fs::path("runs") / (fs::path(arguments.scene).stem().string() + "_profile")
                                                 : fs::path(arguments.out);
@@ -259,6 +306,7 @@ int profile(const ProfileArguments& arguments, const runtime::World& world) {
       throw io::InputError(fmt::format("--windows {}: with {} that are not counted they go beyond time.end_s = {:g} s",
                                        arguments.windows, warm_up, time.end_s));
   }
+  const double scene_s = seconds_since(begin_ns);
   std::vector<Profile> all;
   int air_ranks = 1;
   for (std::size_t n = 0; n < modes(world.size, air_ranks).size(); ++n) {
@@ -278,9 +326,16 @@ int profile(const ProfileArguments& arguments, const runtime::World& world) {
   for (const std::string& sentence : sentences(all)) fmt::print("{}\n", sentence);
   if (world.size == 1) fmt::print("Split needs two ranks: mpirun -n 2 spindrift profile ...\n");
   for (const Profile& p : all) json["modes"].push_back(figures_of(p));
-  write(json, folder / "profile.json");
+  const std::int64_t drawn_from_ns = runtime::Clock::now_ns();
   draw(json, folder / "profile.html");
   draw(json, folder / "profile.png");
+  const double pictures_s = seconds_since(drawn_from_ns), wall_s = seconds_since(begin_ns);
+  double runs_s = 0.0;
+  for (const Profile& p : all) runs_s += p.run_s;
+  json["command"] = {{"scene_s", scene_s}, {"runs_s", runs_s}, {"pictures_s", pictures_s}, {"wall_s", wall_s}};
+  write(json, folder / "profile.json");
+  fmt::print("the profile took {:.4g} s: looking at the scene {:.4g} s, runs {:.4g} s, pictures {:.4g} s\n", wall_s, scene_s,
+             runs_s, pictures_s);
   fmt::print("figures: {}, profile.html and profile.png beside it\n", (folder / "profile.json").string());
   return done;
 }

@@ -35,12 +35,16 @@ runtime::Ledger::Keep RunSettings::keep(std::int64_t window) const {
 }
 
 io::Summary Driver::run(Simulation& simulation) {
+  const runtime::Phase output("output");  // all that has no phase of its own
   const MPI_Comm comm = parts_.world().comm;
   const coupling::Timeline& timeline = simulation.timeline();
   io::History history;
   simulation.declare(history);
   Checkpoints checkpoints(simulation, directory_, history, comm);
-  const std::int64_t first = settings_.restart ? checkpoints.resume() : simulation.begin(directory_);
+  const std::int64_t first = [&] {
+    const runtime::Phase start("start-up");
+    return settings_.restart ? checkpoints.resume() : simulation.begin(directory_);
+  }();
   // A start that was cut short is not the one that the scene asks for.
   if (!settings_.restart && !stop_.agreed(comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
@@ -59,7 +63,10 @@ io::Summary Driver::run(Simulation& simulation) {
 
   while (window < last && summary_.exit_code == 0) {
     ledger_.begin_window(window + 1, settings_.keep(window + 1));
-    const Advance advance = simulation.advance(window, last);
+    const Advance advance = [&] {
+      const runtime::Phase windows("windows");
+      return simulation.advance(window, last);
+    }();
     ledger_.end_window();
     write_rest(simulation);  // for what could not be written beside the window, which is told here
 
@@ -164,6 +171,7 @@ void Driver::end_early(const std::string& why) {
 /// Where the core-seconds of all ranks went, from the ledger: into the summary by part, into the log as a table, and to
 /// trace.json.gz where asked for. What needs the records comes last: it takes the most memory. Collective.
 void Driver::describe_times() {
+  const runtime::Phase phase("sums and records");
   const runtime::World& world = parts_.world();
   ledger_.close();
   const runtime::RankTrace sums = ledger_.sums(world.rank);

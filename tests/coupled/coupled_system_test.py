@@ -3,6 +3,7 @@ Same bits by threads, ranks, placements and restarts; starts from saved fluids; 
 import json
 import os
 import subprocess
+import time
 import unittest
 
 from running import PROGRAM, ROOT, Runs, rows, trace_events
@@ -119,8 +120,11 @@ class Profile(System):
         (self.path / "scene.toml").write_text(PARTICLES)
         given = [word for s in self.SETTINGS for word in ("--set", s)]
         start = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
+        begin = time.monotonic()
         said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0)
-        return said, json.loads((self.path / "out/profile.json").read_text())
+        profile = json.loads((self.path / "out/profile.json").read_text())
+        self.check_command(profile, time.monotonic() - begin)
+        return said, profile
 
     def check_figures(self, modes, threads):
         for mode in modes:
@@ -135,7 +139,23 @@ class Profile(System):
             self.assertLessEqual(mode["efficiency"], (busy + mode["parts_core_s"]["exchange"]) / cores_s + 1e-6)
             for part, seconds in mode["parts_core_s"].items():
                 self.assertGreaterEqual(seconds, 0.0, part)
-            self.assertGreater(mode["start_up_s"], 0.0)
+            # Of the whole run, from reading the scene to its last record: phases by one clock, the whole by another.
+            parts = mode["run_parts_core_s"]
+            self.assertEqual(list(parts), sorted(["start-up", "settling", "first windows", "windows", "output", "sums and records"]))
+            cores = mode["ranks"] * threads
+            self.assertAlmostEqual(sum(parts.values()) / mode["run_core_s"], 1.0, delta=0.01, msg=parts)
+            self.assertAlmostEqual(mode["run_core_s"] / (mode["run_s"] * cores), 1.0, delta=0.1)  # of all ranks; run_s is that of the first
+            self.assertAlmostEqual(parts["windows"], 3 * cores_s, delta=0.05 * parts["windows"])
+            for part in ("start-up", "first windows", "windows", "output", "sums and records"):
+                self.assertGreater(parts[part], 0.0, part)
+
+    def check_command(self, profile, took_s):
+        """The table's runs and what is about them are all of the command but the start of the program itself."""
+        command = profile["command"]
+        self.assertAlmostEqual(sum(mode["run_s"] for mode in profile["modes"]), command["runs_s"], delta=1e-9)
+        self.assertAlmostEqual((command["scene_s"] + command["runs_s"] + command["pictures_s"]) / command["wall_s"], 1.0, delta=0.01)
+        self.assertLess(command["wall_s"], took_s)
+        self.assertGreater(command["wall_s"], 0.6 * took_s)
 
     def test_air_sea_and_both_are_set_side_by_side(self):
         said, profile = self.profiled(1, threads=2)
@@ -153,6 +173,20 @@ class Profile(System):
         self.assertIn("Split needs two ranks", said)
         self.assertTrue((self.path / "out/profile.png").read_bytes().startswith(b"\x89PNG"))
         self.assertIn("Profile of scene", (self.path / "out/profile.html").read_text())
+
+    def test_parts_of_a_run_sum_to_wall_times_cores(self):
+        for ranks, threads in ((1, 2), (2, 1)):
+            begin = time.monotonic()
+            self.spindrift(PARTICLES, f"on_{ranks}", settings=self.SETTINGS, ranks=ranks, threads=threads)
+            took_s = time.monotonic() - begin
+            summary = json.loads((self.path / f"on_{ranks}/summary.json").read_text())
+            parts = {part["name"]: part["core_seconds"] for part in summary["parts"]}
+            self.assertAlmostEqual(sum(parts.values()) / summary["core_seconds"], 1.0, delta=0.01, msg=parts)
+            self.assertAlmostEqual(summary["core_seconds"], 2 * summary["wall_seconds"], delta=1e-9)
+            self.assertLess(summary["wall_seconds"], took_s)
+            for part in ("aero", "sea", "bodies", "output", "waiting", "runtime"):
+                self.assertGreater(parts[part], 0.0, part)
+            self.assertLess(parts["runtime"], 0.3 * summary["core_seconds"])  # the remainder: nothing large hides in it
 
     def test_with_two_ranks_there_is_a_split(self):
         _, profile = self.profiled(2)
