@@ -46,6 +46,7 @@ RotorLoad start_from_coarser(const ResolvedRotorSetup& setup, int steps, Resolve
   ResolvedRotorSetup first = coarser(setup);
   first.flow.max_pseudo_steps = steps, first.flow.coarse_steps = 0, first.flow.drop = setup.flow.coarse_drop;
   const std::unique_ptr<ResolvedRotor> coarse = ResolvedRotor::on(world, first, 0, made_rotor_grid(first, world.comm));
+  coarse->solver().judgement().bands_of_every_row = false;
   coarse->solver().start_uniform();
   coarse->prepare(world.comm);
   coarse->run();

@@ -96,6 +96,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   }
   solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
   solver_->gather_bands(rows_of_faces());
+  solver_->judgement().bands_of_every_row = steady();
   if (!steady()) place({turned(-1)}, {turned(0)});
 }
 
@@ -249,9 +250,11 @@ std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const double> sums) co
 }
 
 std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const PseudoRow> rows) const {
-  std::vector<double> mean(solver_->judgement().loads.result.size(), 0.0);
-  for (const PseudoRow& row : rows)
-    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += row.loads[n] / double(rows.size());
+  std::vector<double> mean(solver_->judgement().bands.result.size(), 0.0);
+  for (const PseudoRow& row : rows) {
+    const std::span<const double> bands = std::span(row.loads).last(mean.size());
+    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += bands[n] / double(rows.size());
+  }
   return span_loads(std::span<const double>(mean));
 }
 

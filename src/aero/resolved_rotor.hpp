@@ -90,8 +90,9 @@ class ResolvedRotor {
   /// Of one blade of the grid (1, 2, ...), about the hub; after the last march, or from a row of it.
   RotorLoad blade_load(int blade) const;
   RotorLoad blade_load(int blade, const PseudoRow& row) const;
-  /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it.
-  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().loads.result); }
+  /// Along the blades of the grid from root to tip, the same on every rank: after the last march, or the mean over rows of it,
+  /// which is for steady flows: theirs have all bands of loads (Judgement::bands_of_every_row).
+  std::vector<SpanLoad> span_loads() const { return span_loads(solver_->judgement().bands.result); }
   std::vector<SpanLoad> span_loads(std::span<const PseudoRow> rows) const;
 
   // For whoever couples: a window may be tried, undone and tried again.

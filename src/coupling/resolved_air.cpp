@@ -209,6 +209,7 @@ class ResolvedAir final : public MarchingAir {
     const int piece = settling_piece(double(size_.cells), steps);  // a large grid shows life in the log
     const std::unique_ptr<aero::ResolvedRotor> held = aero::ResolvedRotor::on(world_, steady, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held->solver().cells());
+    held->solver().judgement().bands_of_every_row = false;  // nothing reads them while it settles
     held->solver().start_uniform();
     held->prepare(world_.comm, {.watchdog_s = scenario().runtime.watchdog_s});
     settle({.solver = held->solver(),

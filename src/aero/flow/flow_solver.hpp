@@ -58,7 +58,7 @@ class FlowSolver {
   void set_wind(UndisturbedWind wind) { residual_.set_wind(std::move(wind)); }
   /// A force inside the air; before record().
   void set_body_force(std::shared_ptr<BodyForce> force);
-  /// Bands whose loads each judgement sums beside those of the patches; before record().
+  /// Bands whose loads are summed beside those of the patches (Judgement::takes_bands); before record().
   void gather_bands(LoadBands bands);
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);

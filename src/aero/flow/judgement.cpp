@@ -64,9 +64,9 @@ Judgement::Judgement(const FlowSetting& setting, std::vector<PatchCondition> con
 
 std::size_t Judgement::patch_sums() const { return std::max<std::size_t>(1, conditions_.size()) * load_components; }
 
-void Judgement::gather_bands(LoadBands bands) {
-  bands_ = std::move(bands);
-  loads.resize(loaded_tiles_, patch_sums() + std::size_t(bands_.count) * band_components);
+void Judgement::gather_bands(LoadBands of) {
+  bands_ = std::move(of);
+  bands.resize(loaded_tiles_, std::size_t(bands_.count) * band_components);
 }
 
 void Judgement::set_body_force(std::shared_ptr<BodyForce> force) {
@@ -126,9 +126,9 @@ void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const F
       partial[7] += forced;
     });
   if (loaded_[owned] != none) {
-    const std::span<double> on_walls = loads.of(loaded_[owned]);
-    std::fill(on_walls.begin(), on_walls.end(), 0.0);
-    add_loads(tile, tile.state.data(), residual.viscous(), bands_, on_walls);
+    const std::span<double> on_patches = loads.of(loaded_[owned]), on_bands = bands.of(loaded_[owned]);
+    std::ranges::fill(on_patches, 0.0), std::ranges::fill(on_bands, 0.0);
+    add_loads(tile, tile.state.data(), residual.viscous(), bands_, on_patches, on_bands);
   }
   const MassBalance mass = residual.mass_balance(tile);
   partial[first_of_mass] = mass.inflow, partial[first_of_mass + 1] = mass.outflow;
@@ -189,6 +189,11 @@ void Judgement::judge() {
   solving_ = m.verdict == Verdict::go_on;
   matrix_free_ = m.matrix_free;
   if (refreshes()) ++matrices_;
+}
+
+void Judgement::add_bands() {
+  std::vector<double>& row = rows.all.back().loads;
+  row.insert(row.end(), bands.result.begin(), bands.result.end());
 }
 
 void Judgement::name_trouble() {

@@ -31,7 +31,7 @@ struct PseudoRow {
   MassBalance mass{};              ///< of the whole grid
   std::array<double, 3> force{};   ///< of all patches with loads [N]
   std::array<double, 3> moment{};  ///< likewise, about the origin [N m]
-  std::vector<double> loads{};     ///< by patch, see patch_loads, then by band, see band_loads
+  std::vector<double> loads{};     ///< by patch, see patch_loads; then by band, see band_loads, where takes_bands() was so
   std::vector<double> bodies{};    ///< of the force inside the air, BodyForce::loads
 };
 
@@ -51,17 +51,20 @@ class Judgement {
   Judgement(const FlowSetting& setting, std::vector<PatchCondition> conditions, TileArrays& arrays);
 
   /// Before the march is recorded.
-  void gather_bands(LoadBands bands);
+  void gather_bands(LoadBands of);
   void set_body_force(std::shared_ptr<BodyForce> force);
   /// Null: none.
   BodyForce* body_force() const { return body_force_.get(); }
 
   /// A march begins, or goes on.
   void begin();
-  /// A tile's part of `norms` and `loads`. @pre its residual is that of its state
+  /// A tile's part of `norms`, `loads` and `bands`. @pre its residual is that of its state
   void measure(std::size_t owned, const ImplicitSystem& system, const FlowResidual& residual);
   /// One place where the march goes on, back, or ends: after the sums over all tiles. Leaves a row.
   void judge();
+  /// Whether the state that was judged last has its bands summed too, after which add_bands() makes them part of its row.
+  bool takes_bands() const { return !bands.result.empty() && (bands_of_every_row || ends_march(march.state().verdict)); }
+  void add_bands();
   /// The norms of all tiles together, once they have been summed.
   Norms sums() const;
   /// Whether a pseudo-step is to be made, with products free of a matrix, with a fresh matrix.
@@ -79,7 +82,8 @@ class Judgement {
 
   March march;
   PseudoRows rows;
-  TileSums norms, loads, force_samples;  ///< `loads`: of tiles that have any, by patch, then by band
+  TileSums norms, loads, bands, force_samples;  ///< `loads` by patch, `bands` by band: of tiles that have any loads
+  bool bands_of_every_row = false;              ///< not only of the state that a march ends with
 
  private:
   void name_trouble();

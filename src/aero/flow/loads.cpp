@@ -49,8 +49,7 @@ bool has_loads(const FlowTile& tile) {
 }
 
 void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,
-               std::span<double> partial) {
-  double* first_band = partial.data() + partial.size() - std::size_t(bands.count) * band_components;
+               std::span<double> of_patches, std::span<double> of_bands) {
   for_walls(tile, state, viscous,
             [&](const FlowBoundary& boundary, int k, int j, int i, const gas::Face<double>& f, double p,
                 const Eigen::Vector3d& friction) {
@@ -58,11 +57,11 @@ void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& 
               // What flows out of the gas through the wall is what the wall receives.
               const Eigen::Vector3d push = p * f.area * Eigen::Vector3d(f.nx, f.ny, f.nz);
               const Eigen::Vector3d moment = face_centre(*tile.geometry, boundary.where.side, k, j, i).cross(push + friction);
-              double* at = partial.data() + std::size_t(boundary.where.patch) * load_components;
+              double* at = of_patches.data() + std::size_t(boundary.where.patch) * load_components;
               for (int c = 0; c < 3; ++c) at[c] += push[c], at[3 + c] += friction[c], at[6 + c] += moment[c];
               const int band = bands.count > 0 ? bands.of(tile, k, j, i) : -1;
               if (band < 0) return;
-              at = first_band + band * band_components;
+              at = of_bands.data() + band * band_components;
               for (int c = 0; c < 3; ++c) at[c] += push[c], at[3 + c] += friction[c];
             });
 }

@@ -30,14 +30,14 @@ struct BandLoads {
   std::array<double, 3> pressure_force{}, viscous_force{};
 };
 inline constexpr int band_components = 6;
-/// `sums`: of the patches, then of the bands, as add_loads fills them.
+/// `sums`: of the bands, as add_loads fills them, or of the patches and then of the bands.
 BandLoads band_loads(std::span<const double> sums, int bands, int band);
 
 /// Whether a tile has walls whose loads count.
 bool has_loads(const FlowTile& tile);
-/// Adds the loads on a tile's walls to partial[patch][component] and, behind the patches, to those of the bands.
+/// Adds the loads on a tile's walls to of_patches[patch][component] and of_bands[band][component].
 void add_loads(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const LoadBands& bands,
-               std::span<double> partial);
+               std::span<double> of_patches, std::span<double> of_bands);
 
 /// A wall face.
 struct WallPoint {

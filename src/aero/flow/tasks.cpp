@@ -261,6 +261,14 @@ void judge(MarchRecording& r) {
     const Norms n = r.judgement.sums();
     r.system.begin(n.mean, n.model, r.judgement.refreshes());
   });
+  TileSums& bands = r.judgement.bands;
+  if (bands.result.empty()) return;
+  const Datum of_bands = r.graph.datum();
+  r.graph.reduce("aero/loads/bands", {reads(r.flow.norms), reads(r.flow.decision), writes(of_bands)},
+                 {.partials = bands.partials, .result = bands.result, .active = [&r] { return r.judgement.takes_bands(); }});
+  r.graph.task("aero/loads/row", {reads(of_bands), reads(r.flow.decision)}, [&r] {
+    if (r.judgement.takes_bands()) r.judgement.add_bands();
+  });
 }
 
 // ---- the linear system and the update

@@ -5,6 +5,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -174,6 +175,35 @@ TEST_CASE("threads leave every bit of a turning rotor as it is", "[rotor][fast]"
     const std::vector<double> now = testing::state_of(rotor.solver());
     if (expected.empty()) expected = now;
     CHECK(now == expected);
+  }
+}
+
+TEST_CASE("loads along the blades are summed at the end of a step of time, and for every state of a steady march",
+          "[rotor][fast]") {
+  for (const bool unsteady : {true, false}) {
+    ResolvedRotorSetup s = unsteady ? turning() : tiny("steady", true);
+    if (!unsteady) s.flow.max_pseudo_steps = 3, s.flow.drop = 0.0;
+    ResolvedRotor rotor(s);
+    rotor.solver().start_uniform();
+    rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+    constexpr double untouched = -12345.0;
+    Judgement& judgement = rotor.solver().judgement();
+    REQUIRE_FALSE(judgement.bands.result.empty());
+    std::ranges::fill(judgement.bands.result, untouched);
+    int rows = 0, summed = 0;
+    judgement.rows.watcher = [&](const PseudoRow&) { ++rows, summed += judgement.bands.result[0] != untouched; };
+    if (unsteady)
+      step(rotor, 1);
+    else
+      rotor.run();
+    CHECK(rows >= 3);
+    CHECK(summed == (unsteady ? 0 : rows - 1));  // of the rows before
+    const std::size_t bands = judgement.bands.result.size(), patches = judgement.loads.result.size();
+    CHECK(std::ranges::count(judgement.bands.result, untouched) == 0);
+    const std::vector<PseudoRow>& all = judgement.rows.all;
+    CHECK(all.back().loads.size() == patches + bands);
+    CHECK(std::ranges::equal(std::span(all.back().loads).last(bands), judgement.bands.result));
+    CHECK(all.front().loads.size() == patches + (unsteady ? 0 : bands));
   }
 }
 
