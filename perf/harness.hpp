@@ -6,6 +6,7 @@
 #pragma once
 
 #include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +26,11 @@ void keep(T& value) {
   asm volatile("" : "+m"(value) : : "memory");
 }
 
+/// Of a clock that others on the machine move too.
+inline double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Wall seconds of one call.
 template <class Body>
 double seconds(Body&& body) {
@@ -38,6 +44,13 @@ inline double user_seconds() {
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
+}
+
+/// Processor seconds of all threads of this process so far, the system's work for it among them.
+inline double processor_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 /// Value below which the fraction q in [0, 1] of the samples lies, linear between neighbours. Not for empty sets.
@@ -83,9 +96,14 @@ Spread measure(Body&& body, Repeat repeat = {}) {
   return spread(times);
 }
 
-/// time(numerator) / time(denominator), each pair measured back to back and in alternating order.
+/// time(numerator) / time(denominator), each pair measured back to back and in alternating order, by a clock [s].
 template <class Numerator, class Denominator>
-Spread paired_ratio(Numerator&& numerator, Denominator&& denominator, int pairs = 9) {
+Spread paired_ratio(Numerator&& numerator, Denominator&& denominator, int pairs = 9, double (*clock)() = wall_seconds) {
+  const auto seconds = [clock](auto& body) {
+    const double begin = clock();
+    body();
+    return clock() - begin;
+  };
   numerator(), denominator();  // warm caches, pages and pools of both before the first pair
   std::vector<double> ratios;
   for (int n = 0; n < pairs; ++n) {

@@ -73,7 +73,7 @@ std::string efficiency_table(const Efficiency& e) {
   std::string waiting = text(e.idle_s) + " core-s";
   if (!std::isnan(e.exposed_s))
     waiting += ": messages under way " + text(e.exposed_s) + ", late ranks " + text(e.partner_wait_s) + ", own tasks " +
-            text(e.idle_s - e.exposed_s - e.partner_wait_s);
+               text(e.idle_s - e.exposed_s - e.partner_wait_s);
   line(out, "waiting", part(e.idle_s), waiting);
   line(out, "completing messages", part(e.poll_s));
   line(out, "runtime overhead", part(e.overhead_s));

@@ -155,8 +155,8 @@ TEST_CASE("the product of the factors is the parallel efficiency", "[trace][fast
 
 TEST_CASE("the table names every figure and fits its width", "[trace][fast]") {
   const std::string table = efficiency_table(efficiency_of(one_message()));
-  for (const char* name : {"parallel efficiency", "load balance", "communication efficiency", "serialisation", "transfer", "waiting",
-                           "waiting for", "runtime overhead", "overlap gained", "critical path", "sea/b", "aero"})
+  for (const char* name : {"parallel efficiency", "load balance", "communication efficiency", "serialisation", "transfer",
+                           "waiting", "waiting for", "runtime overhead", "overlap gained", "critical path", "sea/b", "aero"})
     CHECK_THAT(table, Catch::Contains(name));
   CHECK_THAT(table, !Catch::Contains("idle"));
   CHECK_THAT(table, Catch::Contains("transfer                       75.0 %"));
