@@ -19,26 +19,26 @@ ENDS = {0: "bounded", 2: "refused", 3: "stopped"}
 PLACES = ("x_m", "y_m", "z_m")
 
 
-def largest(history, columns, last):
-    """Magnitude of what a run reaches in these columns (at its end where `last`), of positions where there are none; nan where any value of any column is none."""
+def largest(history, column, last):
+    """Magnitude of what a run reaches in this column (at its end where `last`), of positions where there is none; nan where any value of any column is none."""
     with open(history, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     if any(not math.isfinite(float(v)) for row in rows for v in row.values()):
         return math.nan
-    wanted = columns or [k for k in (rows[0] if rows else {}) if k.split(".")[-1] in PLACES]
+    wanted = [column] if column else [k for k in (rows[0] if rows else {}) if k.split(".")[-1] in PLACES]
     return max((abs(float(row[k])) for row in (rows[-1:] if last else rows) for k in wanted), default=0.0)
 
 
 def end_of(case):
-    """(exit code, what was said, what was reached)."""
+    """(exit code, what was said, by column what was reached)."""
     scene = SCENES[case["scene"]]
+    columns = list(case["reaches"]) if isinstance(case.get("reaches"), dict) else [case.get("column", scene.get("column"))]
     with tempfile.TemporaryDirectory() as scratch:
         done = spindrift("run", ROOT / scene["file"], "--out", scratch + "/out", "--no-report", "--quiet", settings=scene.get("set", []) + case["set"], timeout=240)
         said = (done.stderr + done.stdout).strip()
         if done.returncode == 3 and (summary := pathlib.Path(scratch, "out/summary.json")).exists():
             said = json.loads(summary.read_text())["exit_reason"]
-        columns = [case.get("column", scene.get("column"))] if "column" in case or "column" in scene else []
-        return done.returncode, said, largest(scratch + "/out/history.csv", columns, scene.get("last", False)) if done.returncode == 0 else 0.0
+        return done.returncode, said, {c: largest(scratch + "/out/history.csv", c, scene.get("last", False)) for c in columns} if done.returncode == 0 else {}
 
 
 def verdict(case):
@@ -49,11 +49,11 @@ def verdict(case):
     if "unknown key" in said or "has no effect" in said:
         return "not run", f"a slip of the table: {said}"
     if code == 0:
-        how = f"bounded, reaches {reached:.4g}"
+        how = "bounded, reaches " + ", ".join(f"{value:.4g}" for value in reached.values())
         if "reaches" not in case:
             return how, f"should be {case.get('ends', 'refused')} for {case['named']}"
-        low, high = case["reaches"]
-        return how, "" if low <= reached <= high else f"should reach {low} to {high}"
+        ranges = case["reaches"] if isinstance(case["reaches"], dict) else dict.fromkeys(reached, case["reaches"])
+        return how, "; ".join(f"should reach {low} to {high}" for c, (low, high) in ranges.items() if not low <= reached[c] <= high)
     how = f"{ENDS[code]}: " + said.splitlines()[-1].split(": ", 1)[-1].replace(f"{ROOT}/", "")[:160]
     if "reaches" in case:
         return how, f"should be bounded: {said}"
