@@ -7,9 +7,14 @@
 #include <array>
 #include <cmath>
 
+#include "kernels/base/interpolation.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/index_map.hpp"
+#include "src/aero/resolved_rotor_setup.hpp"
+#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {
 
@@ -52,6 +57,34 @@ void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condi
     }
 }
 
+/// White's plate at x from its edge.
+double plate_y_plus(double speed, double x, double nu, double distance) {
+  const double cf = 0.027 / std::pow(std::max(speed * x / nu, 1.0), 1.0 / 7.0);
+  return speed * std::sqrt(0.5 * cf) * distance / nu;
+}
+
+/// Of both sides of a blade from the hub to where the tip is closed.
+std::vector<FirstCell> blade_cells(const ResolvedRotorSetup& setup, const Turbine& turbine) {
+  constexpr double outer = 0.985, speed_ratio = 7.0;
+  constexpr int sections = 24, along_chord = 10;
+  const Planform& blade = turbine.planform;
+  const double tip = blade.span.back(), wind = setup.wind.norm();
+  const double turning = setup.rotor.speed != 0.0 ? std::abs(setup.rotor.speed) : speed_ratio * wind / tip;
+  const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, turning, wind);
+  const double nu = setup.flow.viscosity_Pa_s / setup.air_density, length = (outer * tip - spec.hub_radius_m) / sections;
+  std::vector<FirstCell> cells;
+  for (int n = 0; n < sections; ++n) {
+    const double r = spec.hub_radius_m + (n + 0.5) * length, chord = interpolate_linear(blade.span, blade.chord, r);
+    const double speed = std::hypot(turning * r, wind);
+    double height = spec.first_cell_m > 0.0 ? spec.first_cell_m : spec.first_cell_chords * chord;
+    if (spec.y_plus > 0.0) height = first_cell_for(spec.y_plus, speed, chord, spec.kinematic_viscosity);
+    for (int i = 0; i < along_chord; ++i)
+      cells.push_back({2.0 * chord / along_chord * length,
+                       plate_y_plus(speed, (i + 0.5) / along_chord * chord, nu, 0.5 * height * (1 << spec.coarsen))});
+  }
+  return cells;
+}
+
 }  // namespace
 
 FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& options, const FlowSetting& s) {
@@ -67,11 +100,33 @@ FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& o
   const double start = first->along, length = last->along - start;
   const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, s.stream)) / gas::density(s.gas, s.stream);
   for (const WallFace& f : faces) {
-    const double x = std::max(f.along - start, 0.01 * length), cf = 0.027 / std::pow(std::max(s.speed * x / nu, 1.0), 1.0 / 7.0);
-    const double y_plus = s.speed * std::sqrt(0.5 * cf) * f.distance / nu;
+    const double y_plus = plate_y_plus(s.speed, std::max(f.along - start, 0.01 * length), nu, f.distance);
     (of(f.condition).wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus});
   }
   return cells;
+}
+
+FirstCells expected_first_cells(const ResolvedRotorSetup& setup) {
+  const FlowOptions& o = setup.flow;
+  if (o.viscous == "none" || o.turbulence == "none") return {};
+  Condition condition = o.blades;
+  for (const PatchOptions& b : o.boundaries)
+    if (b.patch == "blade_1") condition = b.condition;
+  if (!sticks(condition)) return {};
+  FirstCells cells;
+  (of(condition).wall_law ? cells.by_law : cells.resolved) = blade_cells(setup, read_turbine(setup.rotor.turbine));
+  return cells;
+}
+
+bool suits_wall_law(const ResolvedRotorSetup& setup) {
+  constexpr double least = 10.0;
+  const FlowOptions& o = setup.flow;
+  if (o.viscous == "none" || o.turbulence == "none" || model_sweeps(o.turbulence).equations == 0) return false;
+  if (setup.wind.norm() == 0.0 && setup.rotor.speed == 0.0) return false;
+  double area = 0.0, outside = 0.0;
+  for (const FirstCell& c : blade_cells(setup, read_turbine(setup.rotor.turbine)))
+    area += c.area, outside += c.y_plus >= least ? c.area : 0.0;
+  return outside > 0.5 * area;
 }
 
 std::string describe(std::vector<FirstCell> cells) {

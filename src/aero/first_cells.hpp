@@ -12,6 +12,7 @@ namespace spindrift::aero {
 
 struct FlowOptions;
 struct FlowSetting;
+struct ResolvedRotorSetup;
 
 /// A face of a wall that air sticks to, and the y+ of the centre of the cell at it.
 struct FirstCell {
@@ -27,6 +28,14 @@ struct FirstCells {
 /// What a turbulent boundary layer on a flat plate would have, which begins where the walls do: cf = 0.027 / Re_x^(1/7)
 /// (White, Fluid Mechanics, 7th ed. 2011, eq. 7.43). Empty where the flow has no turbulence model.
 FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& options, const FlowSetting& setting);
+
+/// The same on the blades of a resolved rotor, each section a plate of its chord at the speed of its radius, up to where the tip
+/// is closed. The turbine file must be readable.
+FirstCells expected_first_cells(const ResolvedRotorSetup& setup);
+
+/// Whether the cells at the blades leave the boundary layer to a law of the wall, of a closure that has one: y+ of 10 and more
+/// over half of their area. A rotor whose speed is not known turns at a tip-speed ratio of 7.
+bool suits_wall_law(const ResolvedRotorSetup& setup);
 
 /// Middle and largest of them: "0.4 in the middle, 1.2 at most".
 std::string describe(std::vector<FirstCell> cells);

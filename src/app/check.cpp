@@ -345,6 +345,15 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
   if (const std::string note = far_side_note(grid); !note.empty()) fmt::print("  note: {}\n", note);
 }
 
+/// What the walls' first cells will see of the boundary layer, before a run tells.
+void print_first_cells(const aero::FirstCells& cells, const char* plate) {
+  if (cells.resolved.empty() && cells.by_law.empty()) return;
+  fmt::print("\nFirst cells at walls, y+ as on a flat plate of {}\n", plate);
+  if (!cells.resolved.empty()) fmt::print("  {:<24}{}\n", "resolved", describe(cells.resolved));
+  if (!cells.by_law.empty()) fmt::print("  {:<24}{}\n", "by the law of the wall", describe(cells.by_law));
+  for (const std::string& doubt : doubts_of(cells)) fmt::print("  warning: {}\n", doubt);
+}
+
 /// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of so many cells that it takes
 /// more than some seconds.
 void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
@@ -369,6 +378,7 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
              size.sectors == 1 ? ", which follows the hub along the axis only" : "s", size.stations);
   print_far_sides(setup.grid);
+  print_first_cells(expected_first_cells(setup), "the blade's chord");
   const bool strong = is_strong(s.coupling.scheme);
   return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
@@ -386,6 +396,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_far_sides(setup.grid);
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
+  print_first_cells(expected_first_cells(setup), "the blade's chord");
   const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
@@ -441,16 +452,9 @@ std::optional<PartCost> print_actuated_air(const coupling::Scenario& s, int rank
   return cost_of_flow(s, grid);
 }
 
-/// What the walls' first cells will see of the boundary layer, before a run tells.
-void print_first_cells(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
+aero::FirstCells first_cells_of(const coupling::Scenario& s, const aero::MultiBlockGrid& grid) {
   const aero::FlowOptions& o = *s.aero.flow;
-  const aero::FirstCells cells =
-      expected_first_cells(grid, o, flow_setting(o, s.environment.air_density_kg_m3, coupling::flow_wind(s), s.time.window_s));
-  if (cells.resolved.empty() && cells.by_law.empty()) return;
-  fmt::print("\nFirst cells at walls, y+ as on a flat plate of their length\n");
-  if (!cells.resolved.empty()) fmt::print("  {:<22}{}\n", "resolved", describe(cells.resolved));
-  if (!cells.by_law.empty()) fmt::print("  {:<22}{}\n", "by the law of the wall", describe(cells.by_law));
-  for (const std::string& doubt : doubts_of(cells)) fmt::print("  warning: {}\n", doubt);
+  return expected_first_cells(grid, o, flow_setting(o, s.environment.air_density_kg_m3, coupling::flow_wind(s), s.time.window_s));
 }
 
 }  // namespace
@@ -565,7 +569,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
-    print_first_cells(scenario, grid);
+    print_first_cells(first_cells_of(scenario, grid), "their length");
     const double start_s = processor_seconds() - begin_s;
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},

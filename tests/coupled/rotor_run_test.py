@@ -48,8 +48,18 @@ class RotorRun(Folder):
     def test_check_tells_size_and_cost(self):
         done = spindrift("check", SCENE)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        for words in ("blade_resolved", "1 sector, periodic", "cells", "MB", "core-hours"):
+        for words in ("blade_resolved", "1 sector, periodic", "cells", "MB", "core-hours", "y+ as on a flat plate of the blade's chord", "by the law of the wall"):
             self.assertIn(words, done.stdout)
+        self.assertNotIn("y+ of first cells is", done.stdout)
+
+    def test_check_doubts_walls_that_their_cells_do_not_suit(self):
+        for settings, words in ((["aero.flow.blades=no_slip"], "resolved walls want 0 to 5"), (["aero.flow.blades=wall_function", "aero.grid.y_plus=2"], "wall-function walls want 15 to 1000"),
+                                (["aero.grid.y_plus=1"], ""), (["aero.grid.y_plus=60"], "")):
+            with self.subTest(settings=settings):
+                done = spindrift("check", SCENE, settings=settings)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertIn("First cells at walls", done.stdout)
+                self.assertIn(words, done.stdout) if words else self.assertNotIn("y+ of first cells is", done.stdout)
 
     def test_wind_across_the_axis_is_refused_where_flow_is_to_be_steady(self):
         done = spindrift("check", SCENE, settings=["wind.direction_deg=20"])

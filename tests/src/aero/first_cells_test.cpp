@@ -8,6 +8,7 @@
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/resolved_rotor_setup.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
@@ -43,4 +44,42 @@ TEST_CASE("a tenth of the walls' area off what their treatment wants is doubted,
   const auto fine = doubts_of({.resolved = {}, .by_law = {{1.0, 2.0}}});
   REQUIRE(fine.size() == 1);
   CHECK_THAT(fine[0], Contains("wall-function walls want 15 to 1000"));
+}
+
+TEST_CASE("the y+ expected on a rotor's blades is that asked of its grid, and says which walls suit them", "[flow][fast]") {
+  ResolvedRotorSetup s;
+  s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
+  s.rotor.speed = 0.925, s.wind = {11.0, 0.0, 0.0};
+  s.flow.blades = Condition::wall_function;
+  const auto middle = [](const std::vector<FirstCell>& cells) {
+    double area = 0.0, sum = 0.0;
+    for (const FirstCell& c : cells) area += c.area, sum += c.area * c.y_plus;
+    return sum / area;
+  };
+  s.grid.y_plus = 100.0;
+  const FirstCells asked = expected_first_cells(s);
+  CHECK(asked.resolved.empty());
+  CHECK(middle(asked.by_law) == Approx(100.0).epsilon(0.1));  // from the same law at half the chord
+  double area = 0.0;
+  for (const FirstCell& c : asked.by_law) area += c.area;
+  CHECK(area == Approx(2.0 * 300.0).epsilon(0.15));  // both sides of a blade of 83 m and 3.6 m in the mean
+  s.grid.coarsen = 1;
+  CHECK(middle(expected_first_cells(s).by_law) == Approx(2.0 * middle(asked.by_law)));
+  s.grid.coarsen = 0;
+  CHECK(suits_wall_law(s));
+  s.grid.y_plus = 1.0;
+  CHECK_FALSE(suits_wall_law(s));
+  CHECK(doubts_of(expected_first_cells(s)).size() == 1);  // by the law, which wants 15
+  s.grid = {}, s.flow.blades = Condition::no_slip;
+  CHECK(suits_wall_law(s));
+  REQUIRE(doubts_of(expected_first_cells(s)).size() == 1);
+  CHECK_THAT(doubts_of(expected_first_cells(s))[0], Contains("resolved walls want 0 to 5"));
+  s.rotor.speed = 0.0;
+  CHECK(suits_wall_law(s));  // at an assumed speed
+  for (const char* without : {"none", "les_wale"}) {
+    s.flow.turbulence = without;
+    CHECK_FALSE(suits_wall_law(s));
+  }
+  s.flow.turbulence = "none";
+  CHECK(expected_first_cells(s).resolved.empty());
 }
