@@ -52,7 +52,9 @@ const scene::Section<FlowOptions>& flow_section() {
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
           .choice("blades", &FlowOptions::blades,
                   scene::cases<FlowOptions, Condition>(conditions(), [](const BoundaryCondition& c) { return sticks(c); }),
-                  "Blades of a resolved rotor in viscous air that no boundary names.")
+                  "Blades of a resolved rotor in viscous air that no boundary names. Default: \"wall_function\" where first "
+                  "cells have y+ "
+                  "of 10 and more and the turbulence model has a law of the wall.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
           .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s",
                   "Dynamic viscosity at that temperature (Sutherland's law around it).", above(0.0).up_to(1e3))
@@ -107,11 +109,14 @@ const scene::Section<FlowOptions>& flow_section() {
                   {{"steady", "one march to the steady state; a window is at most one pseudo-step, its length a count"},
                    {"bdf1", "first order, a step per window"},
                    {"bdf2", "second order, a step per window"}},
-                  "Time integration.")
-          .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step.", above(0.0).up_to(1e6))
-          .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number.", above(0.0).up_to(1e8))
+                  "Time integration. Default: \"bdf2\" where bodies carry a resolved rotor.")
+          .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step. Default: 2 of a resolved rotor.",
+                  above(0.0).up_to(1e6))
+          .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number. Default: 1000 of a resolved rotor.",
+                  above(0.0).up_to(1e8))
           .number("drop", &FlowOptions::drop, "-",
-                  "Drop of the residual that ends a march. A steady march that takes all its steps without it has not converged "
+                  "Drop of the residual that ends a march. Default: 1e-3 in the windows of a resolved rotor. A steady march that "
+                  "takes all its steps without it has not converged "
                   "and ends with exit code 3; 0: it is to take them all.",
                   between(0.0, 1.0))
           .choice("drop_of", &FlowOptions::drop_of,
@@ -162,7 +167,8 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"auto",
                     "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into "
                     "scene.toml"}},
-                  "Approximate inverse that the linear solver works with; docs/user/air_choices.md says which for what.")
+                  "Approximate inverse that the linear solver works with; docs/user/air_choices.md says which for what. Default: "
+                  "\"coarse\" of a resolved rotor.")
           .integer("tile_cells", &FlowOptions::tile_cells, "-",
                    "Most cells of a tile, as far as 16 lines of cells (8 in the plane) from a wall through their block have no "
                    "more. A tile is a task and is factorised by itself: smaller ones suit more cores, and take more iterations. "

@@ -16,6 +16,7 @@
 #include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/scene_file.hpp"
+#include "src/coupling/rotor_defaults.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/scene/document.hpp"
 
@@ -35,6 +36,7 @@ using WantedGrid = std::variant<Wanted, aero::FlowOptions>;
 /// needs.
 WantedGrid read(const SceneArguments& arguments) {
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
+  coupling::add_rotor_defaults(document);
   const aero::AeroOptions air = document.read(aero::aero_section());
   const aero::RotorOptions rotor = document.read(aero::rotor_section());
   const aero::WindOptions wind = document.read(aero::wind_section());

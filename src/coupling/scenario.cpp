@@ -15,6 +15,7 @@
 #include "src/aero/turbine.hpp"
 #include "src/aero/wind.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/rotor_defaults.hpp"
 #include "src/coupling/symmetry.hpp"
 #include "src/coupling/timeline.hpp"
 #include "src/moorings/bed_file.hpp"
@@ -444,6 +445,7 @@ sea::SeaEnvironment sea_environment(const EnvironmentOptions& environment) {
 }
 
 Scenario read_scenario(scene::Document& document) {
+  add_rotor_defaults(document);
   Scenario s;
   s.source = document.source();
   s.time = document.read(time_section());

@@ -88,6 +88,19 @@ bool within(std::string_view key, std::string_view other) {
 }
 }  // namespace
 
+void Document::add_defaults(const std::vector<std::string>& values) {
+  std::vector<std::string> left_out;
+  for (const std::string& value : values) {
+    const std::string key = value.substr(0, value.find('='));
+    const auto [around, found] = locate(key);
+    if (!found && (!around || around->is_table())) left_out.push_back(value);
+  }
+  const Source program{"defaults of the program", directory()};
+  Layers layers{std::move(root_), std::move(findings_.sources), std::move(findings_.problems)};
+  add_overrides(layers, left_out, program);
+  root_ = std::move(layers.root), findings_.sources = std::move(layers.sources), findings_.problems = std::move(layers.problems);
+}
+
 void Document::problem(std::string_view key, std::string message, std::string follows_from) {
   for (const Problem& p : findings_.problems)
     if (within(key, p.key) || within(p.key, key)) return;  // a consequence: the options hold a default there

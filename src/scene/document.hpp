@@ -81,6 +81,10 @@ class Document {
   /// Reads a section of either shape and keeps only its problems and its echo (`check` of a part, fuzzing).
   void read_any(const SectionBase& section);
 
+  /// Values "a.b=c" of keys that the scene leaves out: defaults that follow from the rest of it. To be given before those keys
+  /// are read; nothing where a key is given, or what stands around it is no section.
+  void add_defaults(const std::vector<std::string>& values);
+
   /// Is this key or section in the scene? "sea", "bodies.platform.cylinders[1].diameter_m"
   bool given(std::string_view key) const { return locate(key).second; }
   /// A problem found by a rule between sections, shown at the key's line, or that of the nearest table around it. Dropped where

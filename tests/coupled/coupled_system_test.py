@@ -28,6 +28,7 @@ first_cell_chords = 8e-3
 [aero.flow]
 time = "bdf2"
 viscous = "none"
+preconditioner = "block_ilu"
 krylov_steps = 6
 matrix_free_below = 0.0
 cfl = 2.0

@@ -32,7 +32,7 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
   static const auto section =
       scene::Section<RotorGridOptions>("grid", "The grid round a resolved rotor, written by `spindrift grid`.")
           .number("resolution", &RotorGridOptions::resolution, "-",
-                  "Number n that sizes the grid: about 50 000 n^3 cells for three blades; every number of cells grows with n.",
+                  "Number n that sizes the grid: about 18 000 n^3 cells a blade; every number of cells grows with n.",
                   scene::between(0.8, 10.0))
           .integer("cells_round", &RotorGridOptions::cells_round, "-", "Cells round the section, even; default 40 n.",
                    scene::between(24, 2000))
@@ -74,9 +74,11 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
                   "Distance of the inflow from the hub over the tip radius.", scene::between(0.5, 50.0))
           .number("downstream_extent", &RotorGridOptions::downstream_extent, "-",
                   "Distance of the outflow from the hub over the tip radius.", scene::between(0.5, 50.0))
-          .choice("sectors", &RotorGridOptions::sectors,
-                  {{"all", "every blade"}, {"one", "one blade, its sides joined by rotation: for axisymmetric flow"}},
-                  "How much of the rotor.")
+          .choice(
+              "sectors", &RotorGridOptions::sectors,
+              {{"all", "every blade"}, {"one", "one blade, its sides joined by rotation: for axisymmetric flow"}},
+              "How much of the rotor. Default: \"all\" where blades differ, by a wind off the axis, over height or turbulent, by "
+              "individual_pitch or blade_stuck.")
           .choice("trailing_edge", &RotorGridOptions::trailing_edge,
                   {{"kept", "flat, as thick as the outline leaves it"}, {"rounded", "closed by half a circle on the flat"}},
                   "What closes the aerofoils.")

@@ -17,14 +17,14 @@ struct RotorGridSpec;
 struct Turbine;
 
 struct RotorGridOptions {
-  double resolution = 2.0;
+  double resolution = 1.0;
   std::optional<int> cells_round, cells_trailing_edge, cells_layers, cells_span, cells_outboard, cells_beside, cells_upstream,
       cells_downstream;
   std::optional<double> first_cell_chords, first_cell_m, y_plus;
   double kinematic_viscosity_m2_s = 1.46e-5;  ///< air at 15 C
   std::optional<double> hub_radius_m;
   double radial_extent = 12.0, upstream_extent = 10.0, downstream_extent = 12.0;
-  std::string sectors = "all";
+  std::string sectors = "one";
   std::string trailing_edge = "kept";
   int coarsen = 0;
   double least_scaled_jacobian = 0.01;

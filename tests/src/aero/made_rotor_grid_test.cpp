@@ -21,7 +21,7 @@ namespace {
 
 ResolvedRotorSetup eddying(double resolution) {
   ResolvedRotorSetup s;
-  s.grid.resolution = resolution, s.grid.first_cell_chords = 4e-3;
+  s.grid.resolution = resolution, s.grid.sectors = "all", s.grid.first_cell_chords = 4e-3;
   s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
   s.rotor.hub_m = {1.0, -2.0, 119.0};
   s.rotor.speed = 0.9;

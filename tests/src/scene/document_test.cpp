@@ -242,3 +242,17 @@ TEST_CASE("a path is an existing file beside the scene that names it", "[scene][
   CHECK_THROWS_WITH(gone.finish(), Catch::Contains("gone.toml:2: sea.table = \"forces.csv\": " + dir.path() +
                                                    "/sub/forces.csv: no such file in " + dir.path() + "/sub"));
 }
+
+TEST_CASE("a default that follows from the rest of the scene counts where the scene says nothing", "[scene][fast]") {
+  Document doc = parse("[time]\nend_s = 2.0\nmost_steps = 7\n", "s.toml", "/");
+  doc.add_defaults({"time.most_steps=3", "time.window_s=0.5", "sea.depth_m=20.0"});
+  const example::TimeOptions time = doc.read(example::time_section());
+  CHECK(time.most_steps == 7);
+  CHECK(time.window_s == 0.5);
+  CHECK(doc.given("sea.depth_m"));
+  CHECK_THAT(doc.echo(), Catch::Contains("window_s = 0.5"));
+  Document wrong = parse("time = 3\n", "s.toml", "/");
+  wrong.add_defaults({"time.window_s=0.5"});
+  wrong.read(example::time_section());
+  CHECK_THROWS_WITH(wrong.finish(), Catch::Contains("s.toml:1: time") && !Catch::Contains("window_s"));
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/coupling/rotor_defaults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/aero/first_cells.hpp"
+#include "src/aero/wind.hpp"
+#include "src/coupling/flow_scene.hpp"
+#include "src/scene/document.hpp"
+#include "src/scene/error.hpp"
+
+namespace spindrift::coupling {
+
+namespace {
+
+/// What of the scene counts here, its mistakes unsaid: they are told where the scene is read.
+Scenario look(scene::Document copy) {
+  Scenario s;
+  s.environment = copy.read(environment_section());
+  s.aero = copy.read(aero::aero_section());
+  s.rotor = copy.read(aero::rotor_section());
+  s.wind = copy.read(aero::wind_section());
+  s.joints = copy.read_named(bodies::joint_section());
+  s.control = copy.read(aero::control_section());
+  for (const auto& [name, joint] : s.joints)
+    if (name == s.rotor.joint && joint.rotation) s.rotor.speed = joint.rotation->rate;
+  return s;
+}
+
+bool along_axis(const Scenario& s) {
+  const Eigen::Vector3d axis = placed_rotor(s).rotor.axis, wind = flow_wind(s);
+  return axis.cross(wind).norm() <= 1e-8 * axis.norm() * wind.norm();
+}
+
+/// Whether all blades meet the same air and have the same pitch: then one sector stands for them.
+bool blades_alike(const Scenario& s) {
+  if (!along_axis(s) || !aero::wind_profile(s.wind).uniform() || s.wind.varies_over_rotor() || aero::turns(s.wind)) return false;
+  return !s.control.individual_pitch && std::ranges::none_of(s.control.events, [](const aero::EventOptions& event) {
+    return event.what == aero::ControlEvent::blade_stuck;
+  });
+}
+
+}  // namespace
+
+void add_rotor_defaults(scene::Document& document) {
+  std::vector<std::string> defaults;
+  try {
+    const Scenario s = look(document);
+    if (!has_resolved_rotor(s) || !s.aero.flow) return;
+    const bool carried = document.given("bodies");
+    if (carried) defaults.push_back("aero.flow.time=\"bdf2\"");
+    const bool steps = document.given("aero.flow.time") ? s.aero.flow->time != "steady" : carried;
+    if (steps) defaults.push_back("aero.flow.drop=1e-3");
+    defaults.insert(defaults.end(), {"aero.flow.preconditioner=\"coarse\"", "aero.flow.cfl=2.0", "aero.flow.cfl_max=1000.0"});
+    defaults.push_back(blades_alike(s) ? "aero.grid.sectors=\"one\"" : "aero.grid.sectors=\"all\"");
+    if (aero::suits_wall_law(resolved_rotor_setup(s))) defaults.push_back("aero.flow.blades=\"wall_function\"");
+  } catch (const scene::SceneError&) {  // told where the file is read
+  }
+  document.add_defaults(defaults);
+}
+
+}  // namespace spindrift::coupling
