@@ -203,7 +203,10 @@ void print_equilibrium(FloatingSystem& floating, const bodies::Equilibrium& equi
   if (!floating.moorings()) return;
   const std::vector<moorings::LineTension> tensions = floating.moorings()->tensions(state.motions);
   for (std::size_t line = 0; line < lines; ++line)
-    fmt::print("  {:<{}}  tension {:.4g} kN\n", floating.moorings()->name(line), width, 1e-3 * tensions[line].fairlead);
+    fmt::print("  {:<{}}  tension {:.4g} kN{}\n", floating.moorings()->name(line), width, 1e-3 * tensions[line].fairlead,
+               tensions[line].fairlead < 0.0 ? fmt::format(": it pushes, as no rope does (moorings.{}.tension_only = false)",
+                                                           floating.moorings()->name(line))
+                                             : "");
   const std::vector<LineEnd> ends = floating.moorings()->junction_motions(state.motions);
   for (std::size_t j = 0; j < junctions; ++j) {
     const Eigen::Vector3d& at = ends[j].position;
