@@ -451,6 +451,7 @@ Scenario read_scenario(scene::Document& document) {
   s.time = document.read(time_section());
   s.environment = document.read(environment_section());
   s.aero = document.read(aero::aero_section());
+  if (s.resolves_air() && !s.aero.flow) s.aero.flow.emplace();  // its absence is told; the rules below look at it
   s.bodies = document.read_named(bodies::body_section());
   s.joints = document.read_named(bodies::joint_section());
   s.beams = document.read_named(bodies::beam_section());
