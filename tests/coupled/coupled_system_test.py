@@ -546,6 +546,41 @@ class ManyRanks(System):
         self.assertEqual(self.text("one"), self.text("many"))
 
 
+class Messages(System):
+    """What two ranks say to each other in a window, from recordings of their graphs."""
+    FIRST_WINDOW = ["time.end_s=0.1", "sea.initial.settle_s=0", "aero.flow.preconditioner='coarse'"]
+
+    def recorded(self, name, *settings):
+        """The nodes of rank 0, by number."""
+        path = self.path / f"{name}.jsonl"
+        self.spindrift(PARTICLES, name, "--record-graph", path, "--windows", "1:1", settings=[*self.FIRST_WINDOW, *settings], ranks=2)
+        nodes = [line for line in map(json.loads, path.read_text().splitlines()) if "node" in line and line["rank"] == 0]
+        self.assertTrue(nodes)
+        return {node["node"]: node for node in nodes}
+
+    @staticmethod
+    def sent(nodes, label):
+        """Bytes of all messages of a label, for one execution."""
+        return sum(node["bytes"] for node in nodes.values() if node["kind"] == "send" and node["label"].startswith(label + "/send/"))
+
+    def test_ranks_send_what_is_read_and_send_it_once(self):
+        nodes, dynamic = self.recorded("extrapolated"), self.recorded("dynamic", "sea.particles.walls='dynamic'")
+        water, walls, all_planes = self.sent(nodes, "sea/halo"), self.sent(nodes, "sea/walls/halo"), self.sent(dynamic, "sea/halo")
+        self.assertGreater(min(water, walls), 0)
+        self.assertEqual(water + walls, all_planes, "walls that follow the water are sent with it as well")
+        self.assertGreater(self.sent(nodes, "aero/ghosts"), 0)
+        for unread in ("aero/gradient_ghosts", "aero/krylov/trial_ghosts", "aero/krylov/gradient_ghosts"):
+            self.assertTrue(any(node["label"].startswith(unread) for node in nodes.values()), unread)
+            self.assertEqual(self.sent(nodes, unread), 0, unread)
+
+    def test_no_loop_of_the_air_waits_for_one_of_the_sea(self):
+        nodes = self.recorded("coarse")
+        modules = {frozenset((node["module"], nodes[before]["module"])) for node in nodes.values() for before, *_ in node["after"]}
+        self.assertIn(frozenset({"sea"}), modules)
+        self.assertIn(frozenset({"aero"}), modules)
+        self.assertNotIn(frozenset({"aero", "sea"}), modules)
+
+
 class Placement(System):
     def check_split(self, text, settings, until):
         self.spindrift(text, "shared", settings=settings)

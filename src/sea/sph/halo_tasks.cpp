@@ -14,6 +14,45 @@ using runtime::writes;
 
 namespace {
 
+/// Clusters of a group.
+struct Part {
+  std::uint32_t begin, end;
+  std::size_t clusters() const { return end - begin; }
+};
+Part part_of(const Group& group, HaloOf what) {
+  return {what == HaloOf::solids ? group.solid : group.fluid, what == HaloOf::water ? group.solid : group.end};
+}
+
+/// Data of a group that hold what is sent. Packing writes those of planes and of walls.
+template <int dim, class Real>
+std::vector<const GroupData*> data_of(const StepRecording<dim, Real>& r, HaloOf what) {
+  switch (what) {
+    case HaloOf::water:
+      return {&r.planes};
+    case HaloOf::solids:
+      return {&r.walls};
+    case HaloOf::stress:
+      return {&r.stress};
+    case HaloOf::planes:
+      break;
+  }
+  return {&r.planes, &r.walls};
+}
+
+/// With the first planes of an evaluation sums begin anew.
+bool begins_sums(HaloOf what) { return what == HaloOf::planes || what == HaloOf::water; }
+
+/// What a group that is not own is given; sums too, which are cleared.
+template <int dim, class Real>
+Uses given(const StepRecording<dim, Real>& r, HaloOf what, int group) {
+  Uses uses;
+  for (const GroupData* data : data_of(r, what)) uses.push_back(writes((*data)[std::size_t(group)]));
+  if (begins_sums(what))
+    for (const GroupData* data : {&r.sums, &r.extra[0], &r.extra[1], &r.extra[2]})
+      uses.push_back(writes((*data)[std::size_t(group)]));
+  return uses;
+}
+
 /// Sums of groups that are not own are of no use to anybody; they must only stay finite.
 template <int dim, class Real>
 void clear_sums(Store<dim, Real>& store, const Group& group) {
@@ -34,10 +73,11 @@ void copy_mirrored(const Real* from, Real* to, int planes, int odd, int also_odd
 
 /// Position and velocity along the second axis, or the stresses xy and yz, are those that turn round.
 template <int dim, class Real>
-void mirror(Store<dim, Real>& store, const Group& of, const Group& image, bool stress) {
-  for (std::size_t n = 0; n < of.end - of.fluid; ++n) {
-    const std::size_t from = of.fluid + n, to = image.fluid + n;
-    if (stress) {
+void mirror(Store<dim, Real>& store, const Group& of, const Group& image, HaloOf what) {
+  const Part source = part_of(of, what), target = part_of(image, what);
+  for (std::size_t n = 0; n < source.clusters(); ++n) {
+    const std::size_t from = source.begin + n, to = target.begin + n;
+    if (what == HaloOf::stress) {
       const std::size_t size = std::size_t(store.stress_planes) * cluster_size;
       using Tensor = SymmetricTensor<Real, dim>;
       copy_mirrored<Real>(store.stress.data() + from * size, store.stress.data() + to * size, store.stress_planes,
@@ -47,7 +87,7 @@ void mirror(Store<dim, Real>& store, const Group& of, const Group& image, bool s
       set_box(store, to);
     }
   }
-  if (!stress) clear_sums(store, image);
+  if (begins_sums(what)) clear_sums(store, image);
 }
 
 }  // namespace
@@ -55,16 +95,13 @@ void mirror(Store<dim, Real>& store, const Group& of, const Group& image, bool s
 template <int dim, class Real>
 void HaloTasks<dim, Real>::record_images(StepRecording<dim, Real>& recording, const std::string& label, HaloOf what) {
   auto& r = recording;
-  const bool stress = what == HaloOf::stress;
   for (const int image : r.sea.subdomain.images) {
     const int source = r.sea.columns.source(image);
-    const auto to = std::size_t(image), from = std::size_t(source);
-    Uses uses = {reads(r.order), reads(r.plan), reads(r.planes[from]), reads(r.walls[from]), writes(r.planes[to])};
-    for (const GroupData* data : {&r.walls, &r.sums, &r.extra[0], &r.extra[1], &r.extra[2]}) uses.push_back(writes((*data)[to]));
-    if (stress) uses.push_back(reads(r.stress[from]));
-    uses.push_back(writes(r.stress[to]));
-    r.graph.task(task_name(label + "/image", to), uses, r.if_active([&store = r.sea.store, image, source, stress] {
-      mirror(store, store.groups[std::size_t(source)], store.groups[std::size_t(image)], stress);
+    Uses uses = given(r, what, image);
+    uses.push_back(reads(r.order)), uses.push_back(reads(r.plan));
+    for (const GroupData* data : data_of(r, what)) uses.push_back(reads((*data)[std::size_t(source)]));
+    r.graph.task(task_name(label + "/image", std::size_t(image)), uses, r.if_active([&store = r.sea.store, image, source, what] {
+      mirror(store, store.groups[std::size_t(source)], store.groups[std::size_t(image)], what);
     }));
   }
 }
@@ -78,25 +115,24 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
   const auto values = [&store, size, stress](std::uint32_t cluster) {
     return (stress ? store.stress.data() : store.pack.data()) + cluster * size;
   };
-  const auto sizes = [&store, size](const std::vector<int>& groups) {
+  const auto sizes = [&store, size, what](const std::vector<int>& groups) {
     std::size_t clusters = 0;
-    for (const int g : groups) clusters += store.groups[std::size_t(g)].end - store.groups[std::size_t(g)].fluid;
+    for (const int g : groups) clusters += part_of(store.groups[std::size_t(g)], what).clusters();
     return clusters * size;
   };
   for (const Subdomain::Border& border : r.sea.subdomain.borders) {
     const auto rank = std::size_t(border.rank);
     Message& message = messages_.emplace_back();
     const Datum out = r.graph.datum(), in = r.graph.datum();
-    Uses gather = of_groups(border.sent, reads, stress ? r.stress : r.planes);
-    for (const int g : border.sent) gather.push_back(reads(r.walls[std::size_t(g)]));
-    gather.push_back(reads(r.order)), gather.push_back(reads(r.plan)), gather.push_back(writes(out)),
-        gather.push_back(writes(in));
-    const auto fill = r.if_active([&store, &message, &border, sizes, values] {
+    Uses gather = {reads(r.order), reads(r.plan), writes(out), writes(in)};
+    for (const GroupData* data : data_of(r, what))
+      for (const int g : border.sent) gather.push_back(reads((*data)[std::size_t(g)]));
+    const auto fill = r.if_active([&store, &message, &border, sizes, values, what] {
       message.out.resize(sizes(border.sent)), message.in.resize(sizes(border.received));
       Real* to = message.out.data();
       for (const int g : border.sent) {
-        const Group& group = store.groups[std::size_t(g)];
-        to = std::copy(values(group.fluid), values(group.end), to);
+        const Part part = part_of(store.groups[std::size_t(g)], what);
+        to = std::copy(values(part.begin), values(part.end), to);
       }
     });
     r.graph.task(task_name(label + "/gather", rank), gather, [&message, fill](const Context& context) {
@@ -109,21 +145,23 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
     r.graph.receive(task_name(label + "/receive", rank), {updates(in)},
                     {border.rank, tag, [&message] { return std::as_writable_bytes(std::span(message.in)); }});
     Uses scatter = {reads(r.order), reads(r.plan), reads(in)};
-    for (const int g : border.received)
-      for (const GroupData* data : {&r.planes, &r.walls, &r.sums, &r.stress, &r.extra[0], &r.extra[1], &r.extra[2]})
-        scatter.push_back(writes((*data)[std::size_t(g)]));
-    r.graph.task(task_name(label + "/scatter", rank), scatter, r.if_active([&store, &message, &border, size, stress, values] {
-      const Real* from = message.in.data();
-      for (const int g : border.received) {
-        const Group& group = store.groups[std::size_t(g)];
-        for (std::size_t cluster = group.fluid; cluster < group.end; ++cluster, from += size) {
-          std::copy(from, from + size, values(std::uint32_t(cluster)));
-          if (stress) continue;
-          set_box(store, cluster);
-        }
-        if (!stress) clear_sums(store, group);
-      }
-    }));
+    for (const int g : border.received) {
+      const Uses written = given(r, what, g);
+      scatter.insert(scatter.end(), written.begin(), written.end());
+    }
+    r.graph.task(task_name(label + "/scatter", rank), scatter,
+                 r.if_active([&store, &message, &border, size, stress, values, what] {
+                   const Real* from = message.in.data();
+                   for (const int g : border.received) {
+                     const Group& group = store.groups[std::size_t(g)];
+                     const Part part = part_of(group, what);
+                     for (std::uint32_t cluster = part.begin; cluster < part.end; ++cluster, from += size) {
+                       std::copy(from, from + size, values(cluster));
+                       if (!stress) set_box(store, cluster);
+                     }
+                     if (begins_sums(what)) clear_sums(store, group);
+                   }
+                 }));
   }
   ++next_tag_;
   record_images(r, label, what);

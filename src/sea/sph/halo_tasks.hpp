@@ -11,8 +11,9 @@
 
 namespace spindrift::sph {
 
-/// What the halo gets: planes and what walls have in them, or the sub-particle stress.
-enum class HaloOf { planes, stress };
+/// What the halo gets: planes, of all particles or of water and then of solids, where walls take theirs from the water; or the
+/// sub-particle stress.
+enum class HaloOf { planes, water, solids, stress };
 
 template <int dim, class Real>
 class HaloTasks {

@@ -4,6 +4,7 @@
 #include "src/sea/sph/ordering.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "runtime/mpi/exchange.hpp"
@@ -11,7 +12,7 @@
 namespace spindrift::sph {
 namespace {
 
-constexpr std::uint32_t lost_key = no_particle - 1;
+constexpr std::uint32_t no_bin = ~std::uint32_t(0), no_group = no_bin;
 
 template <class T>
 void reorder_by(Array<T>& values, const Array<std::uint32_t>& source, T empty) {
@@ -61,16 +62,33 @@ std::vector<Array<double>*> Sorting<dim, Real>::state() {
 
 template <int dim, class Real>
 void Sorting<dim, Real>::begin() {
-  store_.pack = {}, store_.sums = {}, store_.stress = {}, store_.extra_sums = {};
+  release(store_.pack, store_.sums, store_.stress, store_.extra_sums);
   store_.id.resize(store_.slots());  // the halo's go
-  key_.assign(store_.slots(), no_particle);
+  place_.assign(std::size_t(columns_.groups()), 0);
+  for (std::size_t n = 0; n < subdomain_.own.size(); ++n) place_[std::size_t(subdomain_.own[n])] = std::uint32_t(n);
+  first_.assign(bin(subdomain_.own.size(), 0) + 1, 0);
+  bin_of_.resize(store_.slots());
+}
+
+template <int dim, class Real>
+template <class Visit>
+void Sorting<dim, Real>::for_runs(int part, Visit&& visit) const {
+  const auto [first, last] = range(bin_of_.size(), part);
+  for (std::size_t begin = first; begin < last;) {
+    std::size_t end = begin + 1;
+    while (end < last && bin_of_[end] == bin_of_[begin]) ++end;
+    if (bin_of_[begin] != no_bin) visit(std::size_t(bin_of_[begin]), begin, end);
+    begin = end;
+  }
 }
 
 template <int dim, class Real>
 void Sorting<dim, Real>::classify(int part) {
   const Domain<dim>& domain = columns_.domain();
+  leaving_[std::size_t(part)].clear();
   const auto [first, last] = range(store_.slots(), part);
   for (std::size_t slot = first; slot < last; ++slot) {
+    bin_of_[slot] = no_bin;
     if (store_.id[slot] == no_particle) continue;
     std::array<double, dim> x;
     for (int k = 0; k < dim; ++k) {
@@ -84,10 +102,17 @@ void Sorting<dim, Real>::classify(int part) {
       }
       x[k] = store_.x[k][slot];
     }
-    key_[slot] = domain.contains(x) && !(store_.owner[slot / cluster_size] == 0 && domain.passed_edge(x))
-                     ? std::uint32_t(columns_.group(x) * store_.owners + store_.owner[slot / cluster_size])
-                     : lost_key;
+    const int owner = store_.owner[slot / cluster_size];
+    const bool inside = domain.contains(x) && !(owner == 0 && domain.passed_edge(x));
+    const int group = inside ? columns_.group(x) : -1;
+    if (inside && subdomain_.owns(group))
+      bin_of_[slot] = std::uint32_t(bin(place_[std::size_t(group)], owner));
+    else
+      leaving_[std::size_t(part)].push_back({std::uint32_t(slot), inside ? std::uint32_t(group) : no_group, owner});
   }
+  for_runs(part, [&](std::size_t in, std::size_t begin, std::size_t end) {
+    std::atomic_ref(first_[in + 1]).fetch_add(end - begin, std::memory_order_relaxed);
+  });
 }
 
 template <int dim, class Real>
@@ -95,28 +120,26 @@ void Sorting<dim, Real>::migrate(MPI_Comm comm) {
   const auto arrays = state();
   std::vector<runtime::Packer> away(std::size_t(runtime::ranks_in(comm)));
   runtime::Packer lost;
-  for (std::size_t slot = 0; slot < key_.size(); ++slot) {
-    if (key_[slot] == no_particle) continue;
-    if (key_[slot] == lost_key) {
-      LostParticle<dim> particle{store_.id[slot], {}, {}};
-      for (int k = 0; k < dim; ++k) particle.position[k] = store_.x[k][slot], particle.velocity[k] = store_.v[k][slot];
-      lost.put_one(particle);
-      key_[slot] = no_particle;
-      continue;
+  for (const std::vector<Leaver>& of_part : leaving_)
+    for (const Leaver& leaver : of_part) {
+      const std::size_t slot = leaver.slot;
+      if (leaver.group == no_group) {
+        LostParticle<dim> particle{store_.id[slot], {}, {}};
+        for (int k = 0; k < dim; ++k) particle.position[k] = store_.x[k][slot], particle.velocity[k] = store_.v[k][slot];
+        lost.put_one(particle);
+        continue;
+      }
+      runtime::Packer& to = away[std::size_t(subdomain_.rank_of_group[leaver.group])];
+      to.put_one(leaver.group), to.put_one(leaver.owner), to.put_one(store_.id[slot]);
+      for (const Array<double>* array : arrays) to.put_one((*array)[slot]);
     }
-    const int group = int(key_[slot]) / store_.owners;
-    if (subdomain_.owns(group)) continue;
-    runtime::Packer& to = away[std::size_t(subdomain_.rank_of_group[std::size_t(group)])];
-    to.put_one(key_[slot]);
-    to.put_one(store_.id[slot]);
-    for (const Array<double>* array : arrays) to.put_one((*array)[slot]);
-    key_[slot] = no_particle;
-  }
   std::vector<runtime::Bytes> parcels;
   for (auto& packer : away) parcels.push_back(packer.take());
   for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels)) {
     for (runtime::Unpacker from(bytes); !from.done();) {
-      key_.push_back(from.one<std::uint32_t>());
+      const auto group = from.one<std::uint32_t>();
+      const std::size_t in = bin(place_[group], from.one<int>());
+      bin_of_.push_back(std::uint32_t(in)), ++first_[in + 1];
       store_.id.push_back(from.one<std::uint32_t>());
       for (Array<double>* array : arrays) array->push_back(from.one<double>());
     }
@@ -126,35 +149,21 @@ void Sorting<dim, Real>::migrate(MPI_Comm comm) {
     for (runtime::Unpacker from(bytes); !from.done();) store_.lost.push_back(from.one<LostParticle<dim>>());
   std::sort(store_.lost.begin() + std::ptrdiff_t(known), store_.lost.end(),
             [](const auto& a, const auto& b) { return a.id < b.id; });
-
-  // Count, then put each particle into its bin.
-  std::vector<std::uint32_t> place(std::size_t(columns_.groups()), 0);  // of a group among the own ones
-  for (std::size_t n = 0; n < subdomain_.own.size(); ++n) place[std::size_t(subdomain_.own[n])] = std::uint32_t(n);
-  const auto bin_of = [&](std::uint32_t key) {
-    return bin(place[key / std::uint32_t(store_.owners)], int(key % std::uint32_t(store_.owners)));
-  };
-  first_.assign(subdomain_.own.size() * std::size_t(store_.owners) + 1, 0);
-  for (const std::uint32_t key : key_)
-    if (key != no_particle) ++first_[bin_of(key) + 1];
   for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
+  next_.assign(first_.begin(), first_.end() - 1);
   items_.resize(first_.back());
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t slot = 0; slot < key_.size(); ++slot) {
-    if (key_[slot] == no_particle) continue;
-    Item& item = items_[next[bin_of(key_[slot])]++];
-    for (int k = 0; k < dim; ++k) item.x[k] = store_.x[k][slot];
-    item.id = store_.id[slot], item.slot = std::uint32_t(slot);
-  }
-  key_ = {};
 }
 
 template <int dim, class Real>
-void Sorting<dim, Real>::halve(int part) {
-  // Bins differ much in size: each part takes those whose first particle lies in its share.
-  const auto [low, high] = range(items_.size(), part);
-  for (std::size_t n = 0; n + 1 < first_.size(); ++n)
-    if (first_[n] >= low && first_[n] < high && first_[n + 1] > first_[n])
-      halve(std::span(items_).subspan(first_[n], first_[n + 1] - first_[n]));
+void Sorting<dim, Real>::put(int part) {
+  for_runs(part, [&](std::size_t in, std::size_t begin, std::size_t end) {
+    std::size_t to = std::atomic_ref(next_[in]).fetch_add(end - begin, std::memory_order_relaxed);
+    for (std::size_t slot = begin; slot < end; ++slot, ++to) {
+      Item& item = items_[to];
+      for (int k = 0; k < dim; ++k) item.x[k] = store_.x[k][slot];
+      item.id = store_.id[slot], item.slot = std::uint32_t(slot);
+    }
+  });
 }
 
 template <int dim, class Real>
@@ -173,13 +182,29 @@ void Sorting<dim, Real>::lay_out() {
     if (store_.owners == 1) group.solid = group.end;
     store_.longest = std::max<std::size_t>(store_.longest, group.end - group.fluid);
   }
-  source_.assign(store_.owner.size() * cluster_size, no_particle);
+  slot_.resize(first_.size() - 1);
   std::size_t slot = 0;
-  for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
-    for (std::size_t item = first_[n]; item < first_[n + 1]; ++item) source_[slot + item - first_[n]] = items_[item].slot;
-    slot += clusters_of(n) * cluster_size;
+  for (std::size_t n = 0; n < slot_.size(); ++n) slot_[n] = slot, slot += clusters_of(n) * cluster_size;
+  source_.resize(slot);
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::halve(int part) {
+  // Bins differ much in size: each part takes those whose first particle lies in its share.
+  const auto [low, high] = range(first_.back(), part);
+  for (std::size_t n = 0; n < slot_.size(); ++n) {
+    if (first_[n] < low || first_[n] >= high || size_of(n) == 0) continue;
+    const auto items = std::span(items_).subspan(first_[n], size_of(n));
+    halve(items);
+    const auto to = source_.begin() + std::ptrdiff_t(slot_[n]);
+    std::fill(std::ranges::transform(items, to, &Item::slot).out, to + std::ptrdiff_t(clusters_of(n) * cluster_size),
+              no_particle);
   }
-  items_ = {};
+}
+
+template <int dim, class Real>
+void Sorting<dim, Real>::give_back() {
+  release(items_, bin_of_);
 }
 
 template <int dim, class Real>
@@ -209,7 +234,7 @@ void Sorting<dim, Real>::anchor(int part) {
 template <int dim, class Real>
 void Sorting<dim, Real>::exchange_halo(MPI_Comm comm) {
   exchange_halo_structure(store_, columns_, subdomain_, comm);
-  source_ = {};
+  release(source_);
 }
 
 template <int dim, class Real>
@@ -217,8 +242,10 @@ void Sorting<dim, Real>::all(MPI_Comm comm) {
   begin();
   for (int part = 0; part < parts; ++part) classify(part);
   migrate(comm);
-  for (int part = 0; part < parts; ++part) halve(part);
+  for (int part = 0; part < parts; ++part) put(part);
   lay_out();
+  for (int part = 0; part < parts; ++part) halve(part);
+  give_back();
   const int count = arrays();
   for (int array = 0; array < count; ++array) reorder(array);
   make_anchors();
@@ -338,7 +365,7 @@ void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<d
   for (int owner = 1; owner < store.owners; ++owner) {
     for (const auto& [id, seed] : of_solid[std::size_t(owner)]) add(id, seed);
     finish_owner(owner);
-    of_solid[std::size_t(owner)] = {};
+    release(of_solid[std::size_t(owner)]);
   }
   Sorting<dim, Real>(store, columns, subdomain, anchor_step).all(comm);
 }

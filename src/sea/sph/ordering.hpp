@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <utility>
 
@@ -28,10 +29,12 @@ class Sorting {
         arrays_(store.deviation_before.empty() ? 2 * dim + 2 : 3 * dim + 3) {}
 
   void begin();                       ///< gives the planes back: they hold nothing between steps, and their room serves the sort
-  void classify(int part);            ///< finds the group of each particle
+  void classify(int part);            ///< finds the bin of each particle, counts it there
   void migrate(MPI_Comm comm);        ///< sends away, takes in, lists lost ones; collective
-  void halve(int part);               ///< orders the particles of some groups
+  void put(int part);                 ///< particles into their bins, in any order
   void lay_out();                     ///< clusters of groups
+  void halve(int part);               ///< orders the particles of some bins
+  void give_back();                   ///< room that is no longer needed
   void reorder(int array);            ///< one array of the state, 0 to arrays() - 1
   void make_anchors();                ///< room for them
   void anchor(int part);              ///< anchors of some clusters
@@ -44,23 +47,36 @@ class Sorting {
     std::array<double, dim> x;
     std::uint32_t id, slot;
   };
+  /// A particle that is not of an own group, or of none.
+  struct Leaver {
+    std::uint32_t slot, group;
+    int owner;
+  };
   static void halve(std::span<Item> items);
   std::pair<std::size_t, std::size_t> range(std::size_t count, int part) const {
     return {count * std::size_t(part) / parts, count * std::size_t(part + 1) / parts};
   }
   std::vector<Array<double>*> state();
   std::size_t bin(std::size_t own, int owner) const { return own * std::size_t(store_.owners) + std::size_t(owner); }
-  std::size_t clusters_of(std::size_t bin) const { return (first_[bin + 1] - first_[bin] + cluster_size - 1) / cluster_size; }
+  std::size_t size_of(std::size_t bin) const { return first_[bin + 1] - first_[bin]; }
+  std::size_t clusters_of(std::size_t bin) const { return (size_of(bin) + cluster_size - 1) / cluster_size; }
+  /// visit(bin, first slot, end) for slots of one bin that follow each other.
+  template <class Visit>
+  void for_runs(int part, Visit&& visit) const;
 
   Store<dim, Real>& store_;
   const Columns<dim>& columns_;
   const Subdomain& subdomain_;
   double anchor_step_;
   int arrays_;  // of a particle: position, velocity, deviation, those of one step earlier with Verlet's step, identity
-  std::vector<std::uint32_t> key_;  // group * owners + owner, of each slot
-  std::vector<Item> items_;         // by bin: (own group, owner)
-  std::vector<std::size_t> first_;  // of each bin, and the end
-  Array<std::uint32_t> source_;     // slot before, of each slot after
+  std::vector<std::uint32_t> place_;                  // of a group among the own ones
+  Array<std::uint32_t> bin_of_;                       // (own group, owner) of each slot
+  std::vector<std::size_t> first_;                    // item of each bin, and the end; counts to begin with
+  std::vector<std::size_t> next_;                     // item to be written
+  std::array<std::vector<Leaver>, parts> leaving_{};  // by part
+  Array<Item> items_;                                 // by bin
+  std::vector<std::size_t> slot_;                     // first one of each bin, after
+  Array<std::uint32_t> source_;                       // slot before, of each slot after
 };
 
 /// Shows and sees the structure of the halo (clusters, owners, identities, anchors) and makes room for the planes. Collective.

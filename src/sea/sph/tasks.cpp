@@ -45,7 +45,9 @@ void record_contacts(StepRecording<dim, Real>& r) {
     Uses uses = of_groups(r.bundles[b], writes, r.touches);
     for (const int g : r.bundles[b]) {
       uses.push_back(reads(r.planes[std::size_t(g)]));
-      r.sea.columns.for_forward(g, [&](const Neighbour<dim>& near) { uses.push_back(reads(r.planes[std::size_t(near.group)])); });
+      r.sea.columns.for_forward(g, [&](const Neighbour<dim>& near) {
+        for (const GroupData* data : {&r.planes, &r.walls}) uses.push_back(reads((*data)[std::size_t(near.group)]));
+      });
     }
     uses.push_back(reads(r.order)), uses.push_back(reads(r.plan)), uses.push_back(reads(r.loads));
     r.graph.task(task_name("contacts", b), uses,
@@ -153,7 +155,7 @@ template <int dim, class Real>
 void StepTasks<dim, Real>::evaluate(Half half) {
   auto& r = recording_;
   record_packing(r, half);
-  halo_.record(r, "halo", HaloOf::planes);
+  halo_.record(r, "halo", sweeps_.boundary ? HaloOf::water : HaloOf::planes);
   set_walls();
   stress();
   sweep_pairs(
@@ -189,8 +191,10 @@ void StepTasks<dim, Real>::sort() {
   serial("sea/sort/begin", [](S& s) { s.begin(); });
   parallel("sort/classify", S::parts, [](S& s, int n) { s.classify(n); });
   together("sea/sort/migrate", [](S& s, MPI_Comm comm) { s.migrate(comm); });
-  parallel("sort/halve", S::parts, [](S& s, int n) { s.halve(n); });
+  parallel("sort/put", S::parts, [](S& s, int n) { s.put(n); });
   serial("sea/sort/lay_out", [](S& s) { s.lay_out(); });
+  parallel("sort/halve", S::parts, [](S& s, int n) { s.halve(n); });
+  serial("sea/sort/give_back", [](S& s) { s.give_back(); });
   parallel("sort/reorder", sorting_.arrays(), [](S& s, int n) { s.reorder(n); });
   serial("sea/sort/anchors", [](S& s) { s.make_anchors(); });
   parallel("sort/anchor", S::parts, [](S& s, int n) { s.anchor(n); });
@@ -230,7 +234,7 @@ void StepTasks<dim, Real>::set_walls() {
                    for (const int g : groups) sweeps.boundary(sea.store, g, water);
                  }));
   }
-  halo_.record(r, "walls/halo", HaloOf::planes);
+  halo_.record(r, "walls/halo", HaloOf::solids);
 }
 
 /// Sub-particle stress from a sweep of its own.
@@ -341,7 +345,7 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
   r.due = std::move(due);
   clear_sums(r, which, label);
   record_packing(r, Half::begin);
-  halo_.record(r, label + "/halo", HaloOf::planes);
+  halo_.record(r, label + "/halo", sweeps_.boundary ? HaloOf::water : HaloOf::planes);
   set_walls();
   sweep_pairs(
       label, sweep, [&store = r.sea.store, which] { return store.extra_sums[which].data(); }, r.extra[which]);
