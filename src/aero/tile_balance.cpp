@@ -81,7 +81,7 @@ FlowSnapshot send_tiles(FlowSnapshot mine, std::span<const int> owned, std::span
       Values& values = by_tile[from.one<int>()];
       values.state = from.many<double>(), values.note = from.many<double>();
     }
-    bytes = {};
+    bytes = runtime::Bytes();  // {} would keep the room
   }
   FlowSnapshot theirs{.tiles = {}, .march = std::move(mine.march), .set_up = {}};
   for (auto& [tile, values] : by_tile) {

@@ -2,6 +2,7 @@
 // (docs/developer/errors.md): 0 done, 2 bad input, 3 numerical failure, 4 system failure, 5 stopped on request, 6 a target of a
 // study is out of reach. SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <malloc.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -149,9 +150,18 @@ bool may_have_others() {
   return false;
 }
 
+/// A library that hypre brings (SuperLU_DIST) tells the allocator, as it is loaded, to keep all memory that is ever freed. Now
+/// arrays of a quarter of a megabyte and more go back to the system, as they do without it.
+void give_memory_back() {
+  mallopt(M_MMAP_MAX, 1 << 16);
+  mallopt(M_MMAP_THRESHOLD, 1 << 18);
+  mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  give_memory_back();
   CLI::App cli{"Coupled simulation of floating offshore wind turbines.", "spindrift"};
   bool verbose = false;  // parsed before --version is answered
   cli.add_flag("--verbose", verbose, "With --version: compiler, flags, vector width, libraries, processors of this process");

@@ -270,7 +270,10 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   const std::array sums{particles.energy.onto_water, particles.energy.from_solids, particles.energy.absorbed};
   copy.write<std::int64_t>("sea/energy", sums);
   if (!floating_.particle_plan()->sensors.empty()) copy.write<double>("sea/sensors", particles.sensors);
-  coupling::write(copy, parts_, sea_part, {{"sea/particles", particles.total, {{particles.first, std::move(particles.values)}}}});
+  std::vector<coupling::SavedArray> arrays;  // not by a list, which copies
+  arrays.push_back({"sea/particles", particles.total, {}});
+  arrays.back().pieces.push_back({particles.first, std::move(particles.values)});
+  coupling::write(copy, parts_, sea_part, std::move(arrays));
 }
 
 Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {

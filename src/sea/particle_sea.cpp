@@ -248,7 +248,7 @@ class Sea final : public ParticleSea {
   }
 
   ParticleState save() const override {
-    ParticleState state = layout();
+    ParticleState state = layout_without_values();
     state.values = sph::by_identity(sea_, particles_, comm_).values;
     for (const sph::PatchRecord& record : sea_.state().records) record.pack(state.sensors);
     state.energy = sea_.state().energy;
@@ -261,15 +261,10 @@ class Sea final : public ParticleSea {
     return state;
   }
   ParticleState layout() const override {
-    const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
+    ParticleState state = layout_without_values();
     const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
-    return {std::int64_t(mine.first * size),
-            std::int64_t(particles_ * size),
-            std::vector<double>((mine.last - mine.first) * size),
-            {},
-            {},
-            sea_.time(),
-            sea_.state().work.steps};
+    state.values.resize((mine.last - mine.first) * sph::values_per_particle<dim>(sea_.parameters()));
+    return state;
   }
   void restore(const ParticleState& state) override {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
@@ -293,6 +288,17 @@ class Sea final : public ParticleSea {
   }
 
  private:
+  ParticleState layout_without_values() const {
+    const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
+    const auto mine = sph::identities_of(particles_, runtime::rank_in(comm_), ranks_);
+    return {.first = std::int64_t(mine.first * size),
+            .total = std::int64_t(particles_ * size),
+            .values = {},
+            .sensors = {},
+            .energy = {},
+            .time_s = sea_.time(),
+            .steps = sea_.state().work.steps};
+  }
   /// The last step's end, which no step has checked.
   void require_bounded() const {
     const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
