@@ -343,13 +343,13 @@ TEST_CASE("a scene that no resolved rotor can be made of says what is wrong", "[
   const std::string dtu = "turbine = 'dtu_10mw.toml'\nspeed_rpm = 8.836\n", bdf2 = "[aero.flow]\ntime = 'bdf2'\n",
                     steady = "[aero.flow]\ntime = 'steady'\n";
   CHECK(problems(dtu, steady, {11, 0, 0}).empty());
-  CHECK(problems(dtu, bdf2, {10, 4, 0}).empty());
+  CHECK(problems(dtu, "sectors = 'all'\n" + bdf2, {10, 4, 0}).empty());
   CHECK_THAT(problems("speed_rpm = 8.836\n", steady, {11, 0, 0}),
              Contains("rotor.turbine") && Contains("must name a turbine file"));
   CHECK_THAT(problems(dtu, steady, {10, 4, 0}), Contains("needs the wind along the rotor axis; it is 21.8 degrees off"));
   CHECK_THAT(problems(dtu, "sectors = 'one'\n" + bdf2, {10, 4, 0}), Contains("aero.grid.sectors") && Contains("take \"all\""));
   const WindProfile power{.law = WindLaw::power, .reference_height = 119.0};
-  CHECK(problems(dtu, bdf2, {11, 0, 0}, power).empty());
+  CHECK(problems(dtu, "sectors = 'all'\n" + bdf2, {11, 0, 0}, power).empty());
   CHECK_THAT(problems(dtu, steady, {11, 0, 0}, power), Contains("aero.flow.time") && Contains("needs a wind of one speed"));
   CHECK_THAT(problems(dtu, "sectors = 'one'\n" + bdf2, {11, 0, 0}, power),
              Contains("aero.grid.sectors") && Contains("gives each its own wind: take \"all\""));
