@@ -31,14 +31,6 @@ inline double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Wall seconds of one call.
-template <class Body>
-double seconds(Body&& body) {
-  const auto start = std::chrono::steady_clock::now();
-  body();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Processor seconds that this process has spent in its own code so far: others on the machine hardly change them.
 inline double user_seconds() {
   rusage usage;
@@ -51,6 +43,14 @@ inline double processor_seconds() {
   timespec now;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+/// Seconds of one call by a clock.
+template <class Body>
+double seconds(Body&& body, double (*clock)() = wall_seconds) {
+  const double begin = clock();
+  body();
+  return clock() - begin;
 }
 
 /// Value below which the fraction q in [0, 1] of the samples lies, linear between neighbours. Not for empty sets.
@@ -99,19 +99,14 @@ Spread measure(Body&& body, Repeat repeat = {}) {
 /// time(numerator) / time(denominator), each pair measured back to back and in alternating order, by a clock [s].
 template <class Numerator, class Denominator>
 Spread paired_ratio(Numerator&& numerator, Denominator&& denominator, int pairs = 9, double (*clock)() = wall_seconds) {
-  const auto seconds = [clock](auto& body) {
-    const double begin = clock();
-    body();
-    return clock() - begin;
-  };
   numerator(), denominator();  // warm caches, pages and pools of both before the first pair
   std::vector<double> ratios;
   for (int n = 0; n < pairs; ++n) {
     double above, below;
     if (n % 2 == 0)
-      above = seconds(numerator), below = seconds(denominator);
+      above = seconds(numerator, clock), below = seconds(denominator, clock);
     else
-      below = seconds(denominator), above = seconds(numerator);
+      below = seconds(denominator, clock), above = seconds(numerator, clock);
     ratios.push_back(above / below);
   }
   return spread(ratios);

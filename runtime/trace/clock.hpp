@@ -26,6 +26,7 @@ class Clock {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - origin).count();
 #endif
   }
+  static double seconds_since(std::int64_t begin_ns) { return 1e-9 * double(now_ns() - begin_ns); }
 
  private:
   struct Scale {

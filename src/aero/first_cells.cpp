@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "kernels/base/interpolation.hpp"
 #include "src/aero/flow/flow_solver.hpp"
@@ -123,10 +124,14 @@ bool suits_wall_law(const ResolvedRotorSetup& setup) {
   const FlowOptions& o = setup.flow;
   if (o.viscous == "none" || o.turbulence == "none" || model_sweeps(o.turbulence).equations == 0) return false;
   if (setup.wind.norm() == 0.0 && setup.rotor.speed == 0.0) return false;
+  const std::vector<FirstCell> cells = blade_cells(setup, read_turbine(setup.rotor.turbine));
+  return share_outside(cells, least, std::numeric_limits<double>::infinity()) < 0.5;
+}
+
+double share_outside(const std::vector<FirstCell>& cells, double least, double most) {
   double area = 0.0, outside = 0.0;
-  for (const FirstCell& c : blade_cells(setup, read_turbine(setup.rotor.turbine)))
-    area += c.area, outside += c.y_plus >= least ? c.area : 0.0;
-  return outside > 0.5 * area;
+  for (const FirstCell& c : cells) area += c.area, outside += c.y_plus < least || c.y_plus > most ? c.area : 0.0;
+  return area > 0.0 ? outside / area : 0.0;
 }
 
 std::string describe(std::vector<FirstCell> cells) {
@@ -143,13 +148,12 @@ std::vector<std::string> doubts_of(const FirstCells& cells) {
   };
   std::vector<std::string> doubts;
   for (const Treatment& t : {Treatment{"resolved", cells.resolved, 0.0, 5.0}, {"wall-function", cells.by_law, 15.0, 1000.0}}) {
-    double area = 0.0, off = 0.0;
-    for (const FirstCell& c : t.cells) area += c.area, off += c.y_plus < t.least || c.y_plus > t.most ? c.area : 0.0;
-    if (off > 0.1 * area)
+    const double off = share_outside(t.cells, t.least, t.most);
+    if (off > 0.1)
       doubts.push_back(
           fmt::format("y+ of first cells is {}; {} walls want {:g} to {:g}, which {:.0f} % of their area does not "
                       "have: friction is not to be trusted",
-                      describe(t.cells), t.walls, t.least, t.most, 100.0 * off / area));
+                      describe(t.cells), t.walls, t.least, t.most, 100.0 * off));
   }
   return doubts;
 }

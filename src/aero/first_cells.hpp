@@ -37,6 +37,9 @@ FirstCells expected_first_cells(const ResolvedRotorSetup& setup);
 /// over half of their area. A rotor whose speed is not known turns at a tip-speed ratio of 7.
 bool suits_wall_law(const ResolvedRotorSetup& setup);
 
+/// Of the cells' area, what those have whose y+ is not from `least` to `most`; 0 of none.
+double share_outside(const std::vector<FirstCell>& cells, double least, double most);
+
 /// Middle and largest of them: "0.4 in the middle, 1.2 at most".
 std::string describe(std::vector<FirstCell> cells);
 

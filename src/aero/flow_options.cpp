@@ -53,8 +53,7 @@ const scene::Section<FlowOptions>& flow_section() {
           .choice("blades", &FlowOptions::blades,
                   scene::cases<FlowOptions, Condition>(conditions(), [](const BoundaryCondition& c) { return sticks(c); }),
                   "Blades of a resolved rotor in viscous air that no boundary names. Default: \"wall_function\" where first "
-                  "cells have y+ "
-                  "of 10 and more and the turbulence model has a law of the wall.")
+                  "cells have y+ of 10 and more and the turbulence model has a law of the wall.")
           .number("temperature_K", &FlowOptions::temperature_K, "K", "Temperature of the undisturbed air.", between(50.0, 2000.0))
           .number("viscosity_Pa_s", &FlowOptions::viscosity_Pa_s, "Pa s",
                   "Dynamic viscosity at that temperature (Sutherland's law around it).", above(0.0).up_to(1e3))
@@ -116,8 +115,7 @@ const scene::Section<FlowOptions>& flow_section() {
                   above(0.0).up_to(1e8))
           .number("drop", &FlowOptions::drop, "-",
                   "Drop of the residual that ends a march. Default: 1e-3 in the windows of a resolved rotor. A steady march that "
-                  "takes all its steps without it has not converged "
-                  "and ends with exit code 3; 0: it is to take them all.",
+                  "takes all its steps without it has not converged and ends with exit code 3; 0: it is to take them all.",
                   between(0.0, 1.0))
           .choice("drop_of", &FlowOptions::drop_of,
                   {{"balance", "norm of the flux balances of all equations, scaled, mean flow and turbulence"},

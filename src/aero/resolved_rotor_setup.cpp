@@ -22,6 +22,8 @@ double off_axis_degrees(const RotorOptions& rotor, const Eigen::Vector3d& wind) 
 
 }  // namespace
 
+bool blows_along_axis(const RotorOptions& rotor, const Eigen::Vector3d& wind) { return off_axis_degrees(rotor, wind) <= 1e-6; }
+
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
                           const Eigen::Vector3d& wind, const WindProfile& profile) {
   if (rotor.turbine.empty()) {
@@ -35,7 +37,7 @@ void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, co
   } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
   const bool steady = aero.flow->time == "steady", one = aero.grid->sectors == "one";
   const double off = off_axis_degrees(rotor, wind);
-  if (off > 1e-6 && (steady || one))
+  if (!blows_along_axis(rotor, wind) && (steady || one))
     document.problem(
         steady ? "aero.flow.time" : "aero.grid.sectors",
         fmt::format(

@@ -23,6 +23,9 @@ struct ResolvedRotorSetup {
   bool ranks_may_idle = false;                     ///< more ranks than tiles are not refused: of a coarser grid to begin with
 };
 
+/// Whether the wind, where there is any, blows along the rotor's axis: then all blades meet it alike.
+bool blows_along_axis(const RotorOptions& rotor, const Eigen::Vector3d& wind);
+
 /// Rules between [rotor], [aero.grid], [aero.flow] and the wind; problems go to the document.
 void check_resolved_rotor(scene::Document& document, const AeroOptions& aero, const RotorOptions& rotor,
                           const Eigen::Vector3d& wind, const WindProfile& profile = {});

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "kernels/base/release.hpp"
 #include "runtime/mpi/exchange.hpp"
 #include "runtime/partition/partition.hpp"
 #include "src/aero/flow/tasks.hpp"
@@ -81,7 +82,7 @@ FlowSnapshot send_tiles(FlowSnapshot mine, std::span<const int> owned, std::span
       Values& values = by_tile[from.one<int>()];
       values.state = from.many<double>(), values.note = from.many<double>();
     }
-    bytes = runtime::Bytes();  // {} would keep the room
+    release(bytes);
   }
   FlowSnapshot theirs{.tiles = {}, .march = std::move(mine.march), .set_up = {}};
   for (auto& [tile, values] : by_tile) {

@@ -151,11 +151,11 @@ bool may_have_others() {
 }
 
 /// A library that hypre brings (SuperLU_DIST) tells the allocator, as it is loaded, to keep all memory that is ever freed. Now
-/// arrays of a quarter of a megabyte and more go back to the system, as they do without it.
+/// arrays of a megabyte and more go back to the system, as they do without it; smaller ones are used again.
 void give_memory_back() {
   mallopt(M_MMAP_MAX, 1 << 16);
-  mallopt(M_MMAP_THRESHOLD, 1 << 18);
-  mallopt(M_TRIM_THRESHOLD, 1 << 20);
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 1 << 23);
 }
 
 }  // namespace

@@ -76,8 +76,6 @@ struct Profile {
   }
 };
 
-double seconds_since(std::int64_t begin_ns) { return 1e-9 * double(runtime::Clock::now_ns() - begin_ns); }
-
 const std::vector<std::string> phases{"start-up", "settling", "first windows", "windows", "output", "sums and records"};
 
 /// What one rank's clock saw of a run, in seconds of wall by phase.
@@ -173,7 +171,7 @@ Profile windows_of(const ProfileArguments& arguments, const Mode& mode, const ru
   settings.keep_runs = true, settings.windows = std::pair<std::int64_t, std::int64_t>(warm_up + 1, last);
   runtime::StopRequest stop(scenario.runtime.wall_limit_s, directory.stop());
   run::Driver driver(directory, parts, settings, stop);
-  seen.wall_s["start-up"] = seconds_since(begin_ns);
+  seen.wall_s["start-up"] = runtime::Clock::seconds_since(begin_ns);
   std::optional<run::SystemSimulation> simulation;
   {
     const runtime::Phase start("start-up");
@@ -211,8 +209,8 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   Phases seen;
   Profile p = windows_of(arguments, mode, world, folder, seen);
   MPI_Barrier(world.comm);  // rank 0 reads the records of all
-  seen.wall_s["sums and records"] += seconds_since(seen.left_ns);
-  p.run_s = seconds_since(begin_ns);
+  seen.wall_s["sums and records"] += runtime::Clock::seconds_since(seen.left_ns);
+  p.run_s = runtime::Clock::seconds_since(begin_ns);
   std::vector<double> mine{p.run_s * p.threads};
   for (const std::string& phase : phases) mine.push_back(seen.wall_s[phase] * p.threads);
   const std::vector<double> all = runtime::summed(world.comm, mine);
@@ -306,7 +304,7 @@ int profile(const ProfileArguments& arguments, const runtime::World& world) {
       throw io::InputError(fmt::format("--windows {}: with {} that are not counted they go beyond time.end_s = {:g} s",
                                        arguments.windows, warm_up, time.end_s));
   }
-  const double scene_s = seconds_since(begin_ns);
+  const double scene_s = runtime::Clock::seconds_since(begin_ns);
   std::vector<Profile> all;
   int air_ranks = 1;
   for (std::size_t n = 0; n < modes(world.size, air_ranks).size(); ++n) {
@@ -329,7 +327,7 @@ int profile(const ProfileArguments& arguments, const runtime::World& world) {
   const std::int64_t drawn_from_ns = runtime::Clock::now_ns();
   draw(json, folder / "profile.html");
   draw(json, folder / "profile.png");
-  const double pictures_s = seconds_since(drawn_from_ns), wall_s = seconds_since(begin_ns);
+  const double pictures_s = runtime::Clock::seconds_since(drawn_from_ns), wall_s = runtime::Clock::seconds_since(begin_ns);
   double runs_s = 0.0;
   for (const Profile& p : all) runs_s += p.run_s;
   json["command"] = {{"scene_s", scene_s}, {"runs_s", runs_s}, {"pictures_s", pictures_s}, {"wall_s", wall_s}};

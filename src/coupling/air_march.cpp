@@ -61,8 +61,6 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
         "aero/rotor", long(solver.time_steps()), t);
 }
 
-double seconds_since(std::int64_t begin_ns) { return 1e-9 * double(runtime::Clock::now_ns() - begin_ns); }
-
 }  // namespace
 
 double step_of(const Scenario& s) {
@@ -103,7 +101,7 @@ aero::RotorLoad MarchingAir::load_at_end() {
 void MarchingAir::make_timed() {
   const std::int64_t begin_ns = runtime::Clock::now_ns();
   make();
-  made_s_ = std::max(made_s_, seconds_since(begin_ns));
+  made_s_ = std::max(made_s_, runtime::Clock::seconds_since(begin_ns));
 }
 
 std::optional<aero::TileMove> MarchingAir::better_ranks(const Measured& measured) {
@@ -126,7 +124,7 @@ void MarchingAir::move_tiles(const aero::TileMove& move) {
   rank_of_tile_ = move.rank_of_tile;
   make_anew([&](aero::FlowSnapshot mine) { return aero::send_tiles(std::move(mine), owned, rank_of_tile_, world_.comm); });
   if (output_) output_->follow(*solver_);
-  const double took_s = seconds_since(begin_ns);
+  const double took_s = runtime::Clock::seconds_since(begin_ns);
   made_s_ = std::max(made_s_, took_s);
   std::size_t moved = 0;
   for (std::size_t t = 0; t < before.size(); ++t) moved += std::size_t(before[t] != rank_of_tile_[t]);

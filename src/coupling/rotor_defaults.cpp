@@ -30,14 +30,10 @@ Scenario look(scene::Document copy) {
   return s;
 }
 
-bool along_axis(const Scenario& s) {
-  const Eigen::Vector3d axis = placed_rotor(s).rotor.axis, wind = flow_wind(s);
-  return axis.cross(wind).norm() <= 1e-8 * axis.norm() * wind.norm();
-}
-
 /// Whether all blades meet the same air and have the same pitch: then one sector stands for them.
 bool blades_alike(const Scenario& s) {
-  if (!along_axis(s) || !aero::wind_profile(s.wind).uniform() || s.wind.varies_over_rotor() || aero::turns(s.wind)) return false;
+  if (!aero::blows_along_axis(placed_rotor(s).rotor, flow_wind(s)) || !aero::wind_profile(s.wind).uniform()) return false;
+  if (s.wind.varies_over_rotor() || aero::turns(s.wind)) return false;
   return !s.control.individual_pitch && std::ranges::none_of(s.control.events, [](const aero::EventOptions& event) {
     return event.what == aero::ControlEvent::blade_stuck;
   });

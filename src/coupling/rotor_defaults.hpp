@@ -9,7 +9,7 @@ class Document;
 
 namespace spindrift::coupling {
 
-/// Gives keys of [aero.grid], [aero.flow] and [start] that the scene leaves out the values of docs/user/air.md, "What a rotor has
+/// Gives keys of [aero.grid] and [aero.flow] that the scene leaves out the values of docs/user/air.md, "What a rotor has
 /// by default"; nothing in a scene without a resolved rotor.
 void add_rotor_defaults(scene::Document& document);
 

@@ -39,13 +39,12 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
 
 std::string why_unresolved(const aero::FirstCells& cells) {
   constexpr double log_layer = 30.0;
-  double area = 0.0, off = 0.0;
-  for (const aero::FirstCell& c : cells.resolved) area += c.area, off += c.y_plus > log_layer ? c.area : 0.0;
-  if (!(off > 0.5 * area)) return {};
+  const double off = share_outside(cells.resolved, 0.0, log_layer);
+  if (off <= 0.5) return {};
   return fmt::format(
       "y+ of first cells is {} at no_slip walls, above {:g} over {:.0f} % of their area: their friction is a fraction of what it "
       "should be, and the loads are no answer; take first cells of y+ up to 5, or condition = \"wall_function\"",
-      describe(cells.resolved), log_layer, 100.0 * off / area);
+      describe(cells.resolved), log_layer, 100.0 * off);
 }
 
 }  // namespace

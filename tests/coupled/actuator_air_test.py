@@ -2,15 +2,9 @@
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
 import unittest
 
-from running import AIR_OF_LINES, ROOT, Runs, rows
+from running import AIR_OF_LINES, DTU_IN_WIND, ROOT, Runs, rows
 
-FLOW = """
-[wind]
-speed_m_s = 11.0
-[rotor]
-turbine = "%s/inputs/turbines/dtu_10mw.toml"
-%%s
-""" % ROOT + AIR_OF_LINES + """
+FLOW = DTU_IN_WIND + "%s\n" + AIR_OF_LINES + """
 drop = 1e-2
 max_pseudo_steps = 10
 """

@@ -6,38 +6,19 @@ import subprocess
 import time
 import unittest
 
-from running import PROGRAM, ROOT, Runs, rows, trace_events
+from running import AIR_OF_BLADES, DTU_IN_WIND, PROGRAM, ROOT, Runs, rows, trace_events
 
 CASES = ROOT / "inputs/leble_barakos"
 
-# 3 000 cells a sector, three pseudo-steps per window: what is tested is the exchange, not the flow.
-AIR = """
-[wind]
-speed_m_s = 11.0
-[rotor]
-turbine = "%s/inputs/turbines/dtu_10mw.toml"
-[aero]
-model = "blade_resolved"
-[aero.grid]
-resolution = 1.0
-sectors = "one"
-cells_round = 28
-cells_layers = 4
-cells_span = 8
-first_cell_chords = 8e-3
-[aero.flow]
-time = "bdf2"
-viscous = "none"
-preconditioner = "block_ilu"
+# Three pseudo-steps per window: what is tested is the exchange, not the flow.
+AIR = DTU_IN_WIND + AIR_OF_BLADES.replace('"all"', '"one"').replace('limiter = "none"\n', "") + """
 krylov_steps = 6
-matrix_free_below = 0.0
-cfl = 2.0
 cfl_max = 20.0
 max_pseudo_steps = 3
 drop = 0.0
 [start]
 air_steps = 10
-""" % ROOT
+"""
 ENGINEERING = """
 base = "%s/platform.toml"
 [time]

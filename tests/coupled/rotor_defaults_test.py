@@ -4,24 +4,20 @@ import json
 import tomllib
 import unittest
 
-from running import Folder, ROOT, spindrift
+from running import DTU_IN_WIND, Folder, ROOT, spindrift
 
 ROTOR = """
 [time]
 end_s = %s
 window_s = %s
-[wind]
-speed_m_s = 11.0
-[rotor]
-turbine = "%s/inputs/turbines/dtu_10mw.toml"
-%s
+""" + DTU_IN_WIND + """%s
 [aero]
 model = "blade_resolved"
 [aero.grid]
 [aero.flow]
 """
-ALONE = ROTOR % (2.0, 1.0, ROOT, "hub_m = [0.0, 0.0, 119.0]\nspeed_rpm = 8.836")
-CARRIED = 'base = "%s/inputs/leble_barakos/platform.toml"\n' % ROOT + ROTOR % (0.04, 0.02, ROOT, "") + '[sea]\nmodel = "hydrostatic"\n'
+ALONE = ROTOR % (2.0, 1.0, "hub_m = [0.0, 0.0, 119.0]\nspeed_rpm = 8.836")
+CARRIED = 'base = "%s/inputs/leble_barakos/platform.toml"\n' % ROOT + ROTOR % (0.04, 0.02, "") + '[sea]\nmodel = "hydrostatic"\n'
 
 
 class Defaults(Folder):

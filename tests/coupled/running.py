@@ -19,6 +19,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ROOT / "tests/coupled/scenes"
 AIR_OF_LINES = (SCENES / "air_of_lines.toml").read_text()
 AIR_OF_BLADES = (SCENES / "air_of_blades.toml").read_text()
+# Keys of [rotor] may follow it.
+DTU_IN_WIND = """
+[wind]
+speed_m_s = 11.0
+[rotor]
+turbine = "%s/inputs/turbines/dtu_10mw.toml"
+""" % ROOT
 
 
 def starts(count=1):

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/base/failure.hpp"
+#include "kernels/base/release.hpp"
 #include "runtime/mpi/exchange.hpp"
 
 namespace spindrift::aero {
@@ -125,7 +126,7 @@ std::map<int, Values> fetch(const FlowSolver& from, const std::vector<WindowOfTi
       const auto w = left.one<WindowOfTile>();
       states.emplace(w.tile, Values(w.cells, 0)).first->second.data = left.many<double>();
     }
-    answer = {};
+    release(answer);
   }
   return states;
 }

@@ -42,12 +42,6 @@ struct CacheLineAllocator {
 template <class T>
 using Array = std::vector<T, CacheLineAllocator<T>>;
 
-/// Gives their memory back; an assignment of {} would only empty them.
-template <class... Arrays>
-void release(Arrays&... arrays) {
-  ((arrays = Arrays()), ...);
-}
-
 /// Clusters [fluid, solid) are water, [solid, end) walls and bodies. A group is the unit of work, of colouring and of ownership.
 struct Group {
   std::uint32_t fluid = 0, solid = 0, end = 0;

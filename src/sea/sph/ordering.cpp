@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 
+#include "kernels/base/release.hpp"
 #include "runtime/mpi/exchange.hpp"
 
 namespace spindrift::sph {
@@ -62,7 +64,6 @@ std::vector<Array<double>*> Sorting<dim, Real>::state() {
 
 template <int dim, class Real>
 void Sorting<dim, Real>::begin() {
-  release(store_.pack, store_.sums, store_.stress, store_.extra_sums);
   store_.id.resize(store_.slots());  // the halo's go
   place_.assign(std::size_t(columns_.groups()), 0);
   for (std::size_t n = 0; n < subdomain_.own.size(); ++n) place_[std::size_t(subdomain_.own[n])] = std::uint32_t(n);
@@ -151,7 +152,12 @@ void Sorting<dim, Real>::migrate(MPI_Comm comm) {
             [](const auto& a, const auto& b) { return a.id < b.id; });
   for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
   next_.assign(first_.begin(), first_.end() - 1);
-  items_.resize(first_.back());
+  static_assert(alignof(Item) <= 64, "as arrays are aligned");
+  store_.pack.clear();
+  store_.pack.resize((first_.back() * sizeof(Item) + sizeof(Real) - 1) / sizeof(Real));
+  Item* const items = reinterpret_cast<Item*>(store_.pack.data());
+  std::uninitialized_default_construct_n(items, first_.back());
+  items_ = {items, first_.back()};
 }
 
 template <int dim, class Real>
@@ -194,7 +200,7 @@ void Sorting<dim, Real>::halve(int part) {
   const auto [low, high] = range(first_.back(), part);
   for (std::size_t n = 0; n < slot_.size(); ++n) {
     if (first_[n] < low || first_[n] >= high || size_of(n) == 0) continue;
-    const auto items = std::span(items_).subspan(first_[n], size_of(n));
+    const std::span<Item> items = items_.subspan(first_[n], size_of(n));
     halve(items);
     const auto to = source_.begin() + std::ptrdiff_t(slot_[n]);
     std::fill(std::ranges::transform(items, to, &Item::slot).out, to + std::ptrdiff_t(clusters_of(n) * cluster_size),
@@ -204,7 +210,9 @@ void Sorting<dim, Real>::halve(int part) {
 
 template <int dim, class Real>
 void Sorting<dim, Real>::give_back() {
-  release(items_, bin_of_);
+  items_ = {};
+  store_.pack.clear();
+  release(bin_of_);
 }
 
 template <int dim, class Real>

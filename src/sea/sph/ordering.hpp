@@ -28,13 +28,13 @@ class Sorting {
         anchor_step_(anchor_step),
         arrays_(store.deviation_before.empty() ? 2 * dim + 2 : 3 * dim + 3) {}
 
-  void begin();                       ///< gives the planes back: they hold nothing between steps, and their room serves the sort
+  void begin();                       ///< empties the bins
   void classify(int part);            ///< finds the bin of each particle, counts it there
   void migrate(MPI_Comm comm);        ///< sends away, takes in, lists lost ones; collective
   void put(int part);                 ///< particles into their bins, in any order
   void lay_out();                     ///< clusters of groups
   void halve(int part);               ///< orders the particles of some bins
-  void give_back();                   ///< room that is no longer needed
+  void give_back();                   ///< room that is no longer needed, once all bins are in order
   void reorder(int array);            ///< one array of the state, 0 to arrays() - 1
   void make_anchors();                ///< room for them
   void anchor(int part);              ///< anchors of some clusters
@@ -74,7 +74,7 @@ class Sorting {
   std::vector<std::size_t> first_;                    // item of each bin, and the end; counts to begin with
   std::vector<std::size_t> next_;                     // item to be written
   std::array<std::vector<Leaver>, parts> leaving_{};  // by part
-  Array<Item> items_;                                 // by bin
+  std::span<Item> items_;                             // by bin; in the room of Store::pack, which holds nothing between steps
   std::vector<std::size_t> slot_;                     // first one of each bin, after
   Array<std::uint32_t> source_;                       // slot before, of each slot after
 };

@@ -154,9 +154,7 @@ void StepTasks<dim, Real>::step() {
 template <int dim, class Real>
 void StepTasks<dim, Real>::evaluate(Half half) {
   auto& r = recording_;
-  record_packing(r, half);
-  halo_.record(r, "halo", sweeps_.boundary ? HaloOf::water : HaloOf::planes);
-  set_walls();
+  show_planes(half, "halo");
   stress();
   sweep_pairs(
       "pairs", sweeps_.rates, [&store = r.sea.store] { return store.sums.data(); }, r.sums, bool(sweeps_.strain));
@@ -164,6 +162,14 @@ void StepTasks<dim, Real>::evaluate(Half half) {
 }
 
 // ---- the parts ----
+
+/// Planes of own groups and of the halo, with what walls take from the water.
+template <int dim, class Real>
+void StepTasks<dim, Real>::show_planes(Half half, const std::string& label) {
+  record_packing(recording_, half);
+  halo_.record(recording_, label, sweeps_.boundary ? HaloOf::water : HaloOf::planes);
+  set_walls();
+}
 
 template <int dim, class Real>
 void StepTasks<dim, Real>::sort() {
@@ -344,9 +350,7 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
   auto& r = recording_;
   r.due = std::move(due);
   clear_sums(r, which, label);
-  record_packing(r, Half::begin);
-  halo_.record(r, label + "/halo", sweeps_.boundary ? HaloOf::water : HaloOf::planes);
-  set_walls();
+  show_planes(Half::begin, label + "/halo");
   sweep_pairs(
       label, sweep, [&store = r.sea.store, which] { return store.extra_sums[which].data(); }, r.extra[which]);
   for (std::size_t b = 0; b < r.bundles.size(); ++b) {

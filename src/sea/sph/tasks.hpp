@@ -47,6 +47,7 @@ class StepTasks {
 
   void steps(bool first);
   void step();
+  void show_planes(Half half, const std::string& label);
   void set_walls();
   void stress();
   void sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const GroupData& data,
