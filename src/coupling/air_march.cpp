@@ -150,6 +150,7 @@ void MarchingAir::choose() {
 }
 
 void MarchingAir::settle(const SteadyMarch& march, int retry) {
+  const runtime::Phase settling("settling");
   std::optional<SettlingFile> file;
   if (const double interval_s = scenario().checkpoint.wall_interval_s; directory_ && interval_s > 0.0)
     file.emplace(*directory_, world_, interval_s);

@@ -175,10 +175,7 @@ std::int64_t SystemSimulation::file_number(std::int64_t window) const {
 }
 
 std::int64_t SystemSimulation::begin(const io::RunDirectory& directory) {
-  if (parts_.has(air_part)) {
-    const runtime::Phase settling("settling");
-    window_.sides().air().settle_in(directory);
-  }
+  if (parts_.has(air_part)) window_.sides().air().settle_in(directory);
   std::int64_t window = -floating_.timeline().held_windows();
   if (floating_.scenario().start.file.empty()) {
     window_.begin(state_);  // rotor and bodies begin at t = 0, whatever is held before

@@ -130,6 +130,8 @@ class Profile(System):
             self.assertAlmostEqual(parts["windows"], 3 * cores_s, delta=0.05 * parts["windows"])
             for part in ("start-up", "first windows", "windows", "output", "sums and records"):
                 self.assertGreater(parts[part], 0.0, part)
+            if mode["placement"] != "sea alone":
+                self.assertGreater(parts["settling"], 1e-3 * mode["run_core_s"])
 
     def check_command(self, profile, took_s):
         """The table's runs and what is about them are all of the command but the start of the program itself."""
