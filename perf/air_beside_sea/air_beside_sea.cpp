@@ -79,6 +79,4 @@ int main(int argc, char** argv) {
   omp_set_num_threads(threads);
   perf::Group group("air_beside_sea", argc, argv);
   measure(group, "coarse_amg", {"aero.flow.preconditioner='coarse'", "aero.flow.group_cells=4", "aero.flow.direct_groups=0"});
-  measure(group, "pressure_amg",
-          {"aero.flow.preconditioner='pressure_amg'", "aero.flow.krylov_steps=8", "aero.flow.max_pseudo_steps=3"});
 }

@@ -161,7 +161,6 @@ const scene::Section<FlowOptions>& flow_section() {
                    {"block_jacobi", "each cell by itself"},
                    {"identity", "none"},
                    {"coarse", "block ILU(0) after a coarse correction: groups of cells move together, over all tiles"},
-                   {"pressure_amg", "block ILU(0) after pressure by algebraic multigrid (hypre)"},
                    {"auto",
                     "block_ilu or coarse, by trial at the start: iterations and a model of their cost; logged and written into "
                     "scene.toml"}},
@@ -181,10 +180,9 @@ const scene::Section<FlowOptions>& flow_section() {
                    between(0, 4096))
           .only_if("preconditioner", {"coarse", "auto"})
           .integer("common_every", &FlowOptions::common_every, "-",
-                   "Matrices of a physical step, or of a steady march, that one set-up of the coarse correction or of multigrid "
-                   "serves.",
+                   "Matrices of a physical step, or of a steady march, that one set-up of the coarse correction serves.",
                    between(1, 1000))
-          .only_if("preconditioner", {"coarse", "pressure_amg", "auto"})
+          .only_if("preconditioner", {"coarse", "auto"})
           .integer("common_steps", &FlowOptions::common_steps, "-",
                    "Physical steps whose first common_every matrices one set-up serves: it is made anew in every so many-th "
                    "step, whatever the restarts. "
@@ -226,7 +224,7 @@ const scene::Section<FlowOptions>& flow_section() {
                      fmt::format("\"{}\" goes with turbulence that is modelled, not \"{}\"", of(o.blades).name, o.turbulence));
             if (o.motion && o.time == "steady" && o.motion->oscillates())
               report("motion", "oscillates, which steady flow cannot follow: take time = \"bdf2\", or pitch_deg alone");
-            const bool common = o.preconditioner == "coarse" || o.preconditioner == "pressure_amg" || o.preconditioner == "auto";
+            const bool common = o.preconditioner == "coarse" || o.preconditioner == "auto";
             if (o.common_steps > 1 && !common)
               report("common_steps", fmt::format("has no effect with preconditioner \"{}\"", o.preconditioner));
             if (const int needed = std::min(o.max_pseudo_steps, 1000); common && o.common_steps > 1 && o.common_every < needed)

@@ -1,6 +1,6 @@
-// What preconditioners share that solve a coarse level of all tiles first and leave the rest to block ILU tile by tile: when
-// ILU and the coarse level are made anew, and how a coarse level goes on over physical steps, snapshots and restarts. Base of
-// coarse_correction.cpp and pressure_amg.cpp; tested in tests/src/aero/flow/coarse_correction_test.cpp, kept_set_up_test.cpp.
+// Of a preconditioner that solves a coarse level of all tiles first and leaves the rest to block ILU tile by tile: when ILU and
+// the coarse level are made anew, and how a coarse level goes on over physical steps, snapshots and restarts. What the coarse
+// level is of, coarse_correction.cpp has; tested in tests/src/aero/flow/coarse_correction_test.cpp, kept_set_up_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

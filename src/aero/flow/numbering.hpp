@@ -1,6 +1,6 @@
 // Global numbers of points that tiles hold (cells, or groups of cells), process after process as sparse rows want them; who is
 // the neighbour of whom across tiles; and values of points that other processes hold. No communication but for the latter. Used
-// by poisson.cpp, coarse_correction.cpp, pressure_amg.cpp; tested through them in tests/src/aero/flow. SPDX-License-Identifier:
+// by poisson.cpp and coarse_correction.cpp; tested through them in tests/src/aero/flow. SPDX-License-Identifier:
 // Apache-2.0
 #pragma once
 

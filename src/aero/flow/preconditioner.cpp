@@ -8,7 +8,6 @@
 #include "kernels/linear/block_ilu.hpp"
 #include "kernels/linear/block_jacobi.hpp"
 #include "src/aero/flow/coarse_correction.hpp"
-#include "src/aero/flow/pressure_amg.hpp"
 
 namespace spindrift::aero {
 
@@ -75,7 +74,6 @@ std::unique_ptr<Preconditioner> make_tile_preconditioner(std::string_view name) 
 
 std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name, const PreconditionerOptions& options) {
   if (name == "coarse") return make_coarse_correction(options);
-  if (name == "pressure_amg") return make_pressure_amg(options);
   return make_tile_preconditioner(name);
 }
 

@@ -67,7 +67,7 @@ class Preconditioner {
   virtual void set_kept_number(std::uint64_t) {}
 };
 
-/// By the name in the scene: block_ilu, block_jacobi, identity, coarse, pressure_amg.
+/// By the name in the scene: block_ilu, block_jacobi, identity, coarse.
 std::unique_ptr<Preconditioner> make_preconditioner(std::string_view name, const PreconditionerOptions& options = {});
 /// The parts by tile alone: block_ilu, block_jacobi, identity.
 std::unique_ptr<Preconditioner> make_tile_preconditioner(std::string_view name);

@@ -28,8 +28,7 @@ FlowSetting unsteady(const char* preconditioner, PreconditionerOptions coarse) {
              .matrix_free_below = 0.0};
   return s;
 }
-const FlowSetting settings[]{unsteady("coarse", {.group_cells = 4}), unsteady("coarse", {.group_cells = 2, .direct_groups = 0}),
-                             unsteady("pressure_amg", {})};
+const FlowSetting settings[]{unsteady("coarse", {.group_cells = 4}), unsteady("coarse", {.group_cells = 2, .direct_groups = 0})};
 
 Case carried_swirl(const FlowSetting& setting, int threads = 1, int ranks = 1, int rank = 0) {
   const BoxOptions box{.ni = 12, .nj = 12, .nk = 12};
