@@ -55,7 +55,7 @@ std::unique_ptr<SeaSph<3, Real>> make_sea(const Parameters& p, const std::vector
   return std::make_unique<SeaSph<3, Real>>(p, box, seeds, Resources{.threads = threads});
 }
 
-/// Particle evaluations per second over steps that last about `seconds_wanted`.
+/// Particle evaluations per second of processor time, mean of five parts of steps that last about `seconds_wanted` together.
 template <class Real>
 double evaluations_per_second(const Parameters& p, const std::vector<Seed<3>>& seeds, double seconds_wanted = 4.0,
                               const Domain<3>& box = domain) {
@@ -63,14 +63,15 @@ double evaluations_per_second(const Parameters& p, const std::vector<Seed<3>>& s
   for (int n = 0; n < 2; ++n) sea->step(1.0);
   const double one = perf::seconds([&] { sea->step(1.0); });
   const int steps = std::max(2, int(seconds_wanted / one));
-  double best = 1e300;  // of four parts: others on the machine only ever add
-  for (int part = 0; part < 4; ++part) {
-    const int count = std::max(1, steps / 4);
-    best = std::min(best, perf::seconds([&] {
-                            for (int n = 0; n < count; ++n) sea->step(1.0);
-                          }) / count);
+  constexpr int parts = 5;
+  const int count = std::max(1, steps / parts);
+  double rate = 0.0;
+  for (int part = 0; part < parts; ++part) {
+    const double begin = perf::processor_seconds();
+    for (int n = 0; n < count; ++n) sea->step(1.0);
+    rate += 2.0 * double(seeds.size()) * count / (perf::processor_seconds() - begin) / parts;
   }
-  return 2.0 * double(seeds.size()) / best;
+  return rate;
 }
 
 /// Water that fills a box with periodic sides, disordered: the same partners for all at any size.
