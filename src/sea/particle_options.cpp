@@ -82,6 +82,13 @@ const Section<ParticleOptions>& particle_section() {
                    {"modified_no_slip", "the same, water sticks"},
                    {"modified_free_slip", "the same, water slides"}},
                   "What walls and bodies do to the water beside them; modified ones need a level bed.")
+          .choice("body_particles", &ParticleOptions::body_particles,
+                  {{"water",
+                    "the mass of water's particles: a body is as heavy as its mass_kg says, and the water feels its shape alone"},
+                   {"own",
+                    "its mass_kg over their number, the relative weight of Leble & Barakos (2016) taken literally: to compare "
+                    "with codes that do so; light bodies are not lifted by Archimedes' force"}},
+                  "Mass with which the water feels a particle of a body.")
           .flag("contact", &ParticleOptions::contact, "Bodies touch walls and each other; the loads are columns BODY.contact.")
           .number("contact_stiffness", &ParticleOptions::contact_stiffness, "-", "Stiffness of contact over that of the water.",
                   between(0.01, 1.0))

@@ -34,8 +34,9 @@ struct ParticleOptions {
   std::optional<double> solid_viscosity;   ///< with walls and bodies; where absent that of the water on no_slip walls, else 0
   double kinematic_viscosity_m2_s = 1e-6;  ///< of the laminar models
   std::optional<double> solid_kinematic_viscosity_m2_s;
-  std::string walls = "extrapolated";  ///< dynamic, extrapolated, extrapolated_no_slip, modified, ...
-  bool contact = true;                 ///< of bodies with walls and each other
+  std::string walls = "extrapolated";    ///< dynamic, extrapolated, extrapolated_no_slip, modified, ...
+  std::string body_particles = "water";  ///< whose mass a body's particles have: water's, or their share of the body's own
+  bool contact = true;                   ///< of bodies with walls and each other
   double contact_stiffness = 1.0, contact_damping = 0.2, contact_friction = 0.0;
   sph::DiffusionChoice density_diffusion = sph::DiffusionChoice::fourtakas;
   double diffusion_strength = 0.1;

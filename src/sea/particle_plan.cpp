@@ -70,6 +70,7 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
   p.wall = sticks                            ? sph::WallChoice::no_slip
            : s.walls == "modified_free_slip" ? sph::WallChoice::free_slip
                                              : sph::WallChoice::still;
+  p.own_mass = s.body_particles == "own";
   p.contact = s.contact, p.contact_stiffness = s.contact_stiffness, p.contact_damping = s.contact_damping;
   p.contact_friction = s.contact_friction;
   p.verlet_join_every = s.verlet_join_every;

@@ -13,6 +13,10 @@ void add_body(SeaState<dim, Real>& sea, std::uint16_t owner, const Motion& motio
   sea.solids.push_back(solid_from(sea.store, owner, motion, comm));
   if (mass <= 0.0) return;
   const Solid& solid = sea.solids.back();
+  if (sea.p.own_mass) {
+    sea.store.weights.resize(std::size_t(sea.store.owners), 1.0);
+    sea.store.weights[owner] = relative_weight(solid, mass, sea.p, dim);
+  }
   sea.free.push_back(box_of<dim>(solid, motion));
   sea.body_limit = std::min(sea.body_limit, body_step_limit(solid, mass, sea.p, dim));
 }

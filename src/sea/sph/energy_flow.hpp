@@ -74,8 +74,9 @@ EnergyFlow energy_flow(const Store<dim, Real>& store, const Parameters& p, int g
         largest = std::max(largest, std::abs(velocity));
       }
     if (largest == 0.0) continue;  // walls that stand
+    const double own_mass = mass * store.weight_of(cluster);
     for (int lane = 0; lane < cluster_size; ++lane)
-      from_solids[lane] -= quanta(id[lane] != no_particle ? mass * dt * power[lane] : 0.0);
+      from_solids[lane] -= quanta(id[lane] != no_particle ? own_mass * dt * power[lane] : 0.0);
   }
   double onto = 0.0, from = 0.0;
   for (int lane = 0; lane < cluster_size; ++lane) onto += onto_water[lane], from += from_solids[lane];

@@ -116,6 +116,17 @@ struct LawStrain {
   }
 };
 
+/// Rates between water and solids. The water feels a solid's particle with its weight over water's, Store::weights: so much more
+/// or less than what the law says, which is per unit mass of water.
+template <class Law>
+struct LawOfSolids : Law {
+  static constexpr bool weighs = true;
+};
+template <class Law>
+inline constexpr bool weighs = requires {
+  Law::weighs;
+};
+
 /// How many planes of stress a law reads of each partner.
 template <class Law>
 inline constexpr int stress_planes = [] {

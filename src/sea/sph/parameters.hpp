@@ -33,6 +33,7 @@ struct Parameters {
   double alpha_solid = 0.1;  ///< with walls and bodies; the paper neglects it (0)
   BoundaryChoice boundary = BoundaryChoice::dynamic;
   WallChoice wall = WallChoice::still;
+  bool own_mass = false;  ///< of a body's particles: the body's over their number, not that of water's particles
   DiffusionChoice diffusion = DiffusionChoice::none;
   double delta = 0.1;     ///< strength of the density diffusion
   double gravity = 9.81;  ///< m/s2, along the last axis downwards

@@ -19,7 +19,7 @@ GroupSweep<dim, Real> Schemes<dim, Real>::along_centres(const Viscosity& between
       using Kernel = decltype(kernel);
       const Real rho0 = Real(p_.eos.rho0);
       const LawMotion<Kernel, Viscosity, decltype(diffusion), Real> water{kernel, between_water, diffusion, rho0};
-      const LawMotion<Kernel, Viscosity, DensityDiffusionNone, Real> solid{kernel, with_solid, {}, rho0};
+      const LawOfSolids<LawMotion<Kernel, Viscosity, DensityDiffusionNone, Real>> solid{{kernel, with_solid, {}, rho0}};
       return sweep(water, solid);
     };
     switch (p_.diffusion) {
@@ -42,7 +42,8 @@ GroupSweep<dim, Real> Schemes<dim, Real>::along_velocity(const Viscosity& betwee
       using Kernel = decltype(kernel);
       const Real rho0 = Real(p_.eos.rho0);
       const LawDrag<Kernel, Viscosity, decltype(diffusion), Real, sub_particle> water{kernel, between_water, diffusion, rho0};
-      const LawDrag<Kernel, Viscosity, DensityDiffusionNone, Real, sub_particle> solid{kernel, with_solid, {}, rho0};
+      const LawOfSolids<LawDrag<Kernel, Viscosity, DensityDiffusionNone, Real, sub_particle>> solid{
+          {kernel, with_solid, {}, rho0}};
       return sweep(water, solid);
     };
     if (p_.diffusion == DiffusionChoice::none) return with(DensityDiffusionNone{});

@@ -61,11 +61,15 @@ struct Solid {
   }
 };
 
+/// Of a body of this mass [kg], in 2-D per metre of width, over as many particles of water.
+inline double relative_weight(const Solid& solid, double mass, const Parameters& p, int dim) {
+  return mass / (double(solid.local.size()) * p.mass(dim));
+}
+
 /// Largest step of a floating body of this mass [kg], in 2-D per metre of width: half of what is stable for a body pressed from
 /// one side, since it is wet all round, and turns.
 inline double body_step_limit(const Solid& solid, double mass, const Parameters& p, int dim) {
-  const double relative_weight = mass / (double(solid.local.size()) * p.mass(dim));
-  return 0.5 * step_limit_body(relative_weight, solid.layers(p.spacing, dim), p.spacing, p.eos.c0);
+  return 0.5 * step_limit_body(relative_weight(solid, mass, p, dim), solid.layers(p.spacing, dim), p.spacing, p.eos.c0);
 }
 
 /// Reads a body's particles where they are now, on all ranks, under its motion now. Collective.
@@ -127,18 +131,19 @@ void place(Store<dim, Real>& store, const Domain<dim>& domain, const Solid& soli
 }
 
 /// Force of the water on the part of a solid in a group and its moment about a point, from the sums of the last pair sweep; per
-/// metre of width in 2-D.
+/// metre of width in 2-D. mass: of a particle of water [kg].
 template <int dim, class Real>
 Wrench load(const Store<dim, Real>& store, std::uint16_t owner, double mass, const Eigen::Vector3d& about, int group) {
   Wrench total{.point = about};
   for_clusters_of(store, owner, group, [&](std::size_t cluster) {
     const Real* planes = store.pack_of(cluster);
     const Real* sums = store.sums_of(cluster);
+    const double own_mass = mass * store.weight_of(cluster);
     for (int lane = 0; lane < cluster_size && store.id[cluster * cluster_size + lane] != no_particle; ++lane) {
       std::array<double, dim> at, force;
       for (int k = 0; k < dim; ++k) {
         at[k] = store.anchor[k][cluster] + double(planes[k * cluster_size + lane]);
-        force[k] = mass * mass * double(sums[k * cluster_size + lane]);
+        force[k] = own_mass * mass * double(sums[k * cluster_size + lane]);
       }
       total.add_force(to_earth<dim>(force), to_earth<dim>(at));
     }

@@ -49,11 +49,13 @@ struct Store {
   std::vector<Group> groups;
   std::vector<LostParticle<dim>> lost;  ///< of all ranks
   int owners = 1;                       ///< water and solids of the scene
+  std::vector<double> weights;          ///< by owner, of its particles over those of water (laws.hpp); empty: 1
   std::array<int, 3> extra_planes{};    ///< of extra_sums
   int stress_planes = 0;
   std::size_t longest = 0;           ///< clusters of the largest group
   std::array<double, dim> corner{};  ///< lowest corner of the domain, where boxes are measured from [m]
 
+  double weight_of(std::size_t cluster) const { return weights.empty() ? 1.0 : weights[owner[cluster]]; }
   /// Anchor of a cluster from the corner of the domain [m].
   float frame(int axis, std::size_t cluster) const { return float(anchor[axis][cluster] - corner[axis]); }
   std::size_t slots() const { return deviation.size(); }           ///< of own groups

@@ -58,26 +58,45 @@ SPINDRIFT_INLINE auto spread_stress(const Store<dim, Real>& store, std::uint32_t
   }
 }
 
-/// One particle, spread over all lanes, against one cluster; `both`: its partners are updated too.
-template <bool both, class Law, class V, class Stress, int dim, class Real = scalar_of<V>>
+/// Which of the two partners has a weight of its own: the other's sums grow with it.
+enum class Heavy { neither, i, j };
+
+/// One particle, spread over all lanes, against one cluster; `both`: its partners are updated too. weight: that of the heavy one.
+template <bool both, Heavy heavy, class Law, class V, class Stress, int dim, class Real = scalar_of<V>>
 SPINDRIFT_INLINE void particle_against_cluster(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Stress& tau_i,
-                                               const Real* state, const Real* stress, Real* sums, const Law& law) {
+                                               const Real* state, const Real* stress, Real* sums, const Law& law,
+                                               [[maybe_unused]] Real weight = Real(1)) {
+  using Sums = Vec<V, Law::sum_planes>;
   for (int lane = 0; lane < cluster_size; lane += V::size) {
-    Vec<V, Law::sum_planes> to_j = load_sums<Law::sum_planes, V>(sums, lane);
-    if constexpr (stress_planes < Law >> 0)
-      law(i, load_state<dim, V>(state, lane), tau_i, SymmetricTensor<V, dim>{load_sums<stress_planes<Law>, V>(stress, lane)},
-          to_i, to_j);
-    else
-      law(i, load_state<dim, V>(state, lane), to_i, to_j);
+    const auto add = [&](Sums& of_i, Sums& of_j) {
+      if constexpr (stress_planes < Law >> 0)
+        law(i, load_state<dim, V>(state, lane), tau_i, SymmetricTensor<V, dim>{load_sums<stress_planes<Law>, V>(stress, lane)},
+            of_i, of_j);
+      else
+        law(i, load_state<dim, V>(state, lane), of_i, of_j);
+    };
+    Sums to_j = load_sums<Law::sum_planes, V>(sums, lane);
+    if constexpr (heavy == Heavy::j) {
+      Sums from_j{};
+      add(from_j, to_j);
+      to_i += V(weight) * from_j;
+    } else if constexpr (heavy == Heavy::i) {
+      Sums from_i{};
+      add(to_i, from_i);
+      to_j += V(weight) * from_i;
+    } else {
+      add(to_i, to_j);
+    }
     if constexpr (both) store_sums<Law::sum_planes, V>(to_j, sums, lane);
   }
 }
 
-/// One particle against the first `count` chosen candidates.
-template <class Law, class V, class Stress, int dim, class Real>
+/// One particle against the first `count` chosen candidates. weight: its own, where it is the heavy one.
+template <Heavy heavy, class Law, class V, class Stress, int dim, class Real>
 SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Stress& tau_i,
                                               const Store<dim, Real>& store, Real* all_sums,
-                                              const Candidates<dim, Real>& candidates, int count, const Law& shared_law) {
+                                              const Candidates<dim, Real>& candidates, int count, const Law& shared_law,
+                                              Real weight = Real(1)) {
   const Law law = shared_law;  // a copy that no store can alias, so that its constants stay in registers
   const typename Candidates<dim, Real>::View near = candidates.view();
   const Real *const pack = store.pack.data(), *const stress = store.stress.data();
@@ -87,11 +106,23 @@ SPINDRIFT_INLINE void particle_against_chosen(Vec<V, Law::sum_planes>& to_i, con
     const std::size_t other = near.cluster[candidate];
     PairState<V, dim> seen = i;
     for (int k = 0; k < dim; ++k) seen.x[k] += V(near.shift[k][candidate]);
-    particle_against_cluster<true>(received, seen, tau_i, pack + other * (pack_planes<dim> * cluster_size),
-                                   stress + other * (stress_planes<Law> * cluster_size),
-                                   all_sums + other * (Law::sum_planes * cluster_size), law);
+    if constexpr (heavy == Heavy::j) weight = Real(store.weight_of(other));
+    particle_against_cluster<true, heavy>(received, seen, tau_i, pack + other * (pack_planes<dim> * cluster_size),
+                                          stress + other * (stress_planes<Law> * cluster_size),
+                                          all_sums + other * (Law::sum_planes * cluster_size), law, weight);
   }
   to_i = received;
+}
+
+/// The same where one partner is a solid's, which may have a weight.
+template <Heavy heavy, class Law, class V, class Stress, int dim, class Real>
+SPINDRIFT_INLINE void water_against_solids(Vec<V, Law::sum_planes>& to_i, const PairState<V, dim>& i, const Stress& tau_i,
+                                           const Store<dim, Real>& store, Real* all_sums, const Candidates<dim, Real>& candidates,
+                                           int count, const Law& law, double weight) {
+  if constexpr (weighs<Law>)
+    if (!store.weights.empty())
+      return particle_against_chosen<heavy>(to_i, i, tau_i, store, all_sums, candidates, count, law, Real(weight));
+  particle_against_chosen<Heavy::neither>(to_i, i, tau_i, store, all_sums, candidates, count, law);
 }
 
 /// What one cluster meets in a sweep, found anew for each.
@@ -123,12 +154,15 @@ void sweep_cluster(const Store<dim, Real>& store, Real* all_sums, std::uint32_t 
     const auto tau_i = spread_stress<LawWater, V>(store, mine, lane);
     Vec<V, planes> to_i{};
     if constexpr (is_water) {
-      if (inside) particle_against_cluster<false>(to_i, i, tau_i, state, stress, sums, water);
-      particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), water);
+      if (inside) particle_against_cluster<false, Heavy::neither>(to_i, i, tau_i, state, stress, sums, water);
+      particle_against_chosen<Heavy::neither>(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach),
+                                              water);
       if (meets.solid.size() > 0)
-        particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid);
+        water_against_solids<Heavy::j>(to_i, i, tau_i, store, all_sums, meets.solid, meets.solid.choose(point, reach), solid,
+                                       1.0);
     } else {
-      particle_against_chosen(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), solid);
+      water_against_solids<Heavy::i>(to_i, i, tau_i, store, all_sums, meets.water, meets.water.choose(point, reach), solid,
+                                     store.weight_of(mine));
     }
     for (int n = 0; n < planes; ++n) sums[n * cluster_size + lane] += sum(to_i[n]);
   }

@@ -104,8 +104,9 @@ void pairs(const char* name, const Law& law) {
     const PairState<V, dim> i = spread_state<dim, V>(pack, lane);
     Vec<V, Law::sum_planes> to{};
     for (int c = 0; c < clusters; ++c)
-      particle_against_cluster<true>(to, i, NoStress{}, pack + c * planes * cluster_size, static_cast<const Real*>(nullptr),
-                                     sums + c * Law::sum_planes * cluster_size, law);
+      particle_against_cluster<true, Heavy::neither>(to, i, NoStress{}, pack + c * planes * cluster_size,
+                                                     static_cast<const Real*>(nullptr), sums + c * Law::sum_planes * cluster_size,
+                                                     law);
     for (int n = 0; n < Law::sum_planes; ++n) d.add(double(sum(to[n])));
   }
   d.add(sums, std::size(sums));

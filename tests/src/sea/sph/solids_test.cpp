@@ -82,6 +82,50 @@ TEST_CASE("the load on a body is the opposite of its push on the water, the same
   omp_set_num_threads(threads);
 }
 
+TEST_CASE("particles of a body that have its own mass push the water by it and are pushed by it", "[sph][fast]") {
+  Parameters p;
+  p.spacing = 0.1, p.gravity = 0.0;
+  auto seeds = disordered_block<3>(p.spacing, {9, 9, 9}, {0, 0, 0}, false);
+  const Points points = points_in_sphere(0.25, p.spacing);
+  Motion body;
+  body.position = {0.45, 0.45, 1.05};
+  add_body(seeds, points, body, 1);
+  struct Loaded {
+    Eigen::Vector3d on_body, on_water = Eigen::Vector3d::Zero();
+    std::vector<double> sums;
+    EnergyFlow energy;
+  };
+  const auto loaded = [&](bool own_mass, double weight) {
+    p.own_mass = own_mass;
+    SeaSph<3, double> sea(p, Domain<3>{{-2, -2, -2}, {3, 3, 3}}, seeds);
+    Motion moving = body;
+    moving.velocity = {0.0, 0.0, -1.0};
+    sea.add_body(1, moving, weight * double(points.size()) * p.mass(3));
+    place_body(sea.state(), 1, moving);
+    sea.evaluate();
+    Loaded l{.on_body = sea.load_on(1, Eigen::Vector3d::Zero()).force};
+    for (std::size_t slot = 0; slot < sea.store().slots(); ++slot) {
+      if (sea.store().id[slot] == no_particle) continue;
+      const auto s = sums_at(sea.store(), slot);
+      l.sums.insert(l.sums.end(), s.begin(), s.end());
+      if (sea.store().owner[slot / cluster_size] == 0) l.on_water += std::pow(p.mass(3), 2) * Eigen::Vector3d(s[0], s[1], s[2]);
+    }
+    sea.begin_step(1e-5), sea.half_step(), sea.end_step();
+    l.energy = sea.state().energy;
+    return l;
+  };
+  const Loaded plain = loaded(false, 0.4), light = loaded(true, 0.4), alike = loaded(true, 1.0);
+  CHECK(plain.on_body.norm() > 1.0);
+  CHECK((light.on_body - 0.4 * plain.on_body).norm() < 1e-12 * plain.on_body.norm());
+  CHECK((light.on_body + light.on_water).norm() < 1e-11 * plain.on_body.norm());
+  CHECK(light.sums != plain.sums);
+  double apart = 0.0, largest = 0.0;  // of those of water's weight: rounding alone
+  for (std::size_t n = 0; n < plain.sums.size(); ++n)
+    apart = std::max(apart, std::abs(alike.sums[n] - plain.sums[n])), largest = std::max(largest, std::abs(plain.sums[n]));
+  CHECK(apart < 1e-12 * largest);
+  CHECK(std::abs(double(light.energy.from_solids) / double(plain.energy.from_solids) - 0.4) < 1e-3);
+}
+
 TEST_CASE("a solid without particles, or in two runs of them, is refused", "[sph][fast]") {
   Parameters p;
   p.spacing = 0.1;
