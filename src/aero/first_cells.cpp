@@ -13,6 +13,7 @@
 #include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/index_map.hpp"
+#include "src/aero/grid/line_growth.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
 #include "src/aero/turbine.hpp"
@@ -22,40 +23,60 @@ namespace spindrift::aero {
 namespace {
 
 struct WallFace {
+  const Boundary* of = nullptr;
+  Index cell{};  ///< at it
   Condition condition = Condition::no_slip;
   double area = 0.0, distance = 0.0, along = 0.0;  ///< of the first cell's centre from the wall; of the face along the wind
 };
 
-/// Faces of a boundary, seen from the cells at it.
-void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condition, const Eigen::Vector3d& wind,
-                  std::vector<WallFace>& faces) {
+using FaceCorners = std::array<Eigen::Vector3d, 4>;
+
+/// Of the face of a cell at a boundary, or of the one `depth` cells further in.
+FaceCorners face_corners(const Boundary& b, const MultiBlockGrid& grid, const Index& cell, int depth) {
   const Block& block = grid.blocks[std::size_t(b.where.block)];
   const std::size_t d = std::size_t(direction_of(b.where.side));
   const auto [u, v] = along(b.where.side);
-  const int inward = at_end(b.where.side) ? -1 : 1;
+  FaceCorners x;
+  for (int n = 0; n < 4; ++n) {
+    Index node = cell;
+    node[d] += at_end(b.where.side) ? 1 - depth : depth;
+    node[std::size_t(u)] += n == 1 || n == 2, node[std::size_t(v)] += n >= 2;
+    x[std::size_t(n)] = block.nodes[block.node(node[2], node[1], node[0])];
+  }
+  return x;
+}
+Eigen::Vector3d middle(const FaceCorners& x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); }
+
+/// Faces of a boundary, seen from the cells at it.
+void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condition, const Eigen::Vector3d& wind,
+                  std::vector<WallFace>& faces) {
+  const std::size_t d = std::size_t(direction_of(b.where.side));
+  const auto [u, v] = along(b.where.side);
   Index at{};
-  at[d] = at_end(b.where.side) ? block.cells()[d] : 0;
-  const auto corners = [&, u = u, v = v](int depth) {
-    std::array<Eigen::Vector3d, 4> x;
-    for (int n = 0; n < 4; ++n) {
-      Index node = at;
-      node[d] += depth * inward, node[std::size_t(u)] += n == 1 || n == 2, node[std::size_t(v)] += n >= 2;
-      x[std::size_t(n)] = block.nodes[block.node(node[2], node[1], node[0])];
-    }
-    return x;
-  };
-  const auto middle = [](const std::array<Eigen::Vector3d, 4>& x) -> Eigen::Vector3d {
-    return 0.25 * (x[0] + x[1] + x[2] + x[3]);
-  };
+  at[d] = at_end(b.where.side) ? grid.blocks[std::size_t(b.where.block)].cells()[d] - 1 : 0;
   for (at[std::size_t(v)] = b.where.low[1]; at[std::size_t(v)] < b.where.high[1]; ++at[std::size_t(v)])
     for (at[std::size_t(u)] = b.where.low[0]; at[std::size_t(u)] < b.where.high[0]; ++at[std::size_t(u)]) {
-      const auto wall = corners(0), next = corners(1);
+      const FaceCorners wall = face_corners(b, grid, at, 0), next = face_corners(b, grid, at, 1);
       const Eigen::Vector3d normal = 0.5 * (wall[2] - wall[0]).cross(wall[3] - wall[1]);
       const double area = normal.norm();
       if (area == 0.0) continue;
       const double height = std::abs((middle(next) - middle(wall)).dot(normal)) / area;
-      faces.push_back({condition, area, 0.5 * height, middle(wall).dot(wind)});
+      faces.push_back({&b, at, condition, area, 0.5 * height, middle(wall).dot(wind)});
     }
+}
+
+/// FirstCell::growth, by the distances of faces' middles.
+double growth_from(const WallFace& face, const MultiBlockGrid& grid, double y_plus) {
+  const Window& where = face.of->where;
+  const int layers = grid.blocks[std::size_t(where.block)].cells()[std::size_t(direction_of(where.side))];
+  LineGrowth growth(wall_layer_y_plus * face.distance / std::max(y_plus, 1e-12));
+  Eigen::Vector3d last = middle(face_corners(*face.of, grid, face.cell, 0));
+  for (int n = 1; n <= layers && !growth.done(); ++n) {
+    const Eigen::Vector3d next = middle(face_corners(*face.of, grid, face.cell, n));
+    growth.add((next - last).norm());
+    last = next;
+  }
+  return growth.largest();
 }
 
 /// White's plate at x from its edge.
@@ -102,7 +123,7 @@ FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& o
   const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, s.stream)) / gas::density(s.gas, s.stream);
   for (const WallFace& f : faces) {
     const double y_plus = plate_y_plus(s.speed, std::max(f.along - start, 0.01 * length), nu, f.distance);
-    (of(f.condition).wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus});
+    (of(f.condition).wall_law ? cells.by_law : cells.resolved).push_back({f.area, y_plus, growth_from(f, grid, y_plus)});
   }
   return cells;
 }
@@ -134,13 +155,33 @@ double share_outside(const std::vector<FirstCell>& cells, double least, double m
   return area > 0.0 ? outside / area : 0.0;
 }
 
+double share_growing(const std::vector<FirstCell>& cells, double most) {
+  double area = 0.0, beyond = 0.0;
+  for (const FirstCell& c : cells) area += c.area, beyond += c.growth > most ? c.area : 0.0;
+  return area > 0.0 ? beyond / area : 0.0;
+}
+
 std::string describe(std::vector<FirstCell> cells) {
   std::ranges::sort(cells, {}, &FirstCell::y_plus);
   return cells.empty() ? "none"
                        : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].y_plus, cells.back().y_plus);
 }
 
-std::vector<std::string> doubts_of(const FirstCells& cells) {
+std::string describe_growth(std::vector<FirstCell> cells) {
+  std::ranges::sort(cells, {}, &FirstCell::growth);
+  return cells.empty() ? "none"
+                       : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].growth, cells.back().growth);
+}
+
+std::string more_layers(const FlowOptions& o) {
+  if (!o.generate) return fmt::format("take a grid with more layers than aero.flow.grid = \"{}\"", o.grid);
+  if (o.generate->kind == "box") return "raise aero.flow.generate.cells";
+  if (o.generate->kind == "stretched_box") return "lower aero.flow.generate.growth";
+  if (o.generate->kind == "cylinder") return "raise aero.flow.generate.outward";
+  return "raise aero.flow.generate.refinement";
+}
+
+std::vector<std::string> doubts_of(const FirstCells& cells, const std::string& remedy) {
   struct Treatment {
     const char* walls;
     const std::vector<FirstCell>& cells;
@@ -155,6 +196,11 @@ std::vector<std::string> doubts_of(const FirstCells& cells) {
                       "have: friction is not to be trusted",
                       describe(t.cells), t.walls, t.least, t.most, 100.0 * off));
   }
+  if (const double off = share_growing(cells.resolved, doubted_growth); off > 0.1)
+    doubts.push_back(fmt::format(
+        "cells grow from layer to layer off resolved walls by {}, up to y+ {:g}; a boundary layer wants 1.2 to 1.3, and "
+        "{:.0f} % of the walls' area has more than {:g}: drag is not to be trusted; {}",
+        describe_growth(cells.resolved), wall_layer_y_plus, 100.0 * off, doubted_growth, remedy));
   return doubts;
 }
 

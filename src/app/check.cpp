@@ -19,6 +19,7 @@
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/checks.hpp"
+#include "src/aero/grid/line_growth.hpp"
 #include "src/aero/grid/tiling.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "src/app/commands.hpp"
@@ -349,12 +350,15 @@ void print_far_sides(const aero::RotorGridOptions& grid) {
 }
 
 /// What the walls' first cells will see of the boundary layer, before a run tells.
-void print_first_cells(const aero::FirstCells& cells, const char* plate) {
+void print_first_cells(const aero::FirstCells& cells, const char* plate, const std::string& remedy) {
   if (cells.resolved.empty() && cells.by_law.empty()) return;
   fmt::print("\nFirst cells at walls, y+ as on a flat plate of {}\n", plate);
   if (!cells.resolved.empty()) fmt::print("  {:<24}{}\n", "resolved", describe(cells.resolved));
   if (!cells.by_law.empty()) fmt::print("  {:<24}{}\n", "by the law of the wall", describe(cells.by_law));
-  for (const std::string& doubt : doubts_of(cells)) fmt::print("  warning: {}\n", doubt);
+  const bool lines_known = std::ranges::any_of(cells.resolved, [](const aero::FirstCell& c) { return c.growth > 1.0; });
+  if (lines_known)
+    fmt::print("  {:<24}{}, up to y+ {:g}\n", "growth off resolved", describe_growth(cells.resolved), aero::wall_layer_y_plus);
+  for (const std::string& doubt : doubts_of(cells, remedy)) fmt::print("  warning: {}\n", doubt);
 }
 
 /// Makes the grid of a resolved rotor: whether it can be made and shared out is known then. Not of so many cells that it takes
@@ -381,7 +385,7 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
              size.sectors == 1 ? ", which follows the hub along the axis only" : "s", size.stations);
   print_far_sides(setup.grid);
-  print_first_cells(expected_first_cells(setup), "the blade's chord");
+  print_first_cells(expected_first_cells(setup), "the blade's chord", "raise aero.grid.cells_layers");
   const bool strong = is_strong(s.coupling.scheme);
   return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
@@ -399,7 +403,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_far_sides(setup.grid);
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
-  print_first_cells(expected_first_cells(setup), "the blade's chord");
+  print_first_cells(expected_first_cells(setup), "the blade's chord", "raise aero.grid.cells_layers");
   const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
@@ -572,7 +576,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
-    print_first_cells(first_cells_of(scenario, grid), "their length");
+    print_first_cells(first_cells_of(scenario, grid), "their length", more_layers(*scenario.aero.flow));
     const double start_s = processor_seconds() - begin_s;
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},

@@ -5,6 +5,7 @@
 
 #include "runtime/mpi/exchange.hpp"
 #include "src/aero/first_cells.hpp"
+#include "src/coupling/flow_scene.hpp"
 #include "src/io/collective.hpp"
 
 namespace spindrift::run {
@@ -18,7 +19,7 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   for (const aero::FlowTile& tile : solver.tiles())
     for (const aero::WallPoint& p : solver.wall_points(tile)) {
       const aero::BoundaryCondition& c = of(solver.judgement().conditions()[std::size_t(p.patch)].condition);
-      if (sticks(c)) (c.wall_law ? mine.by_law : mine.resolved).push_back({p.area, p.y_plus});
+      if (sticks(c)) (c.wall_law ? mine.by_law : mine.resolved).push_back({p.area, p.y_plus, p.growth});
     }
   runtime::Packer packer;
   packer.put(std::span<const aero::FirstCell>(mine.resolved));
@@ -37,26 +38,38 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   return all;
 }
 
-std::string why_unresolved(const aero::FirstCells& cells) {
+/// Where the scene asks for more layers.
+std::string remedy(const coupling::Scenario& s) {
+  return has_resolved_rotor(s) ? "raise aero.grid.cells_layers" : more_layers(*s.aero.flow);
+}
+
+/// What growth does was measured on sections: of a rotor it is doubted and ends no run.
+std::string why_unresolved(const aero::FirstCells& cells, const coupling::Scenario& scenario) {
   constexpr double log_layer = 30.0;
-  const double off = share_outside(cells.resolved, 0.0, log_layer);
-  if (off <= 0.5) return {};
-  return fmt::format(
-      "y+ of first cells is {} at no_slip walls, above {:g} over {:.0f} % of their area: their friction is a fraction of what it "
-      "should be, and the loads are no answer; take first cells of y+ up to 5, or condition = \"wall_function\"",
-      describe(cells.resolved), log_layer, 100.0 * off);
+  if (const double off = share_outside(cells.resolved, 0.0, log_layer); off > 0.5)
+    return fmt::format(
+        "y+ of first cells is {} at no_slip walls, above {:g} over {:.0f} % of their area: their friction is a fraction of what "
+        "it should be, and the loads are no answer; take first cells of y+ up to 5, or condition = \"wall_function\"",
+        describe(cells.resolved), log_layer, 100.0 * off);
+  if (const double off = share_growing(cells.resolved, aero::useless_growth); off > 0.5 && !has_resolved_rotor(scenario))
+    return fmt::format(
+        "cells grow from layer to layer off no_slip walls by {}, above {:g} over {:.0f} % of their area: few are left to the "
+        "boundary layer, and the loads are no answer; {}",
+        describe_growth(cells.resolved), aero::useless_growth, 100.0 * off, remedy(scenario));
+  return {};
 }
 
 }  // namespace
 
-std::string unresolved_walls(const aero::FlowSolver& solver, const runtime::World& world) {
+std::string unresolved_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario, const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
-  return io::from_root(world.comm, world.rank == 0 ? why_unresolved(cells) : "");
+  return io::from_root(world.comm, world.rank == 0 ? why_unresolved(cells, scenario) : "");
 }
 
-std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const runtime::World& world) {
+std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario,
+                                         const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
-  return world.rank == 0 ? doubts_of(cells) : std::vector<std::string>();
+  return world.rank == 0 ? doubts_of(cells, remedy(scenario)) : std::vector<std::string>();
 }
 
 }  // namespace spindrift::run

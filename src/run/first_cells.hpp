@@ -7,14 +7,17 @@
 
 #include "runtime/mpi/environment.hpp"
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/coupling/scenario.hpp"
 
 namespace spindrift::run {
 
 /// Why loads are wrong, whatever the residual: over most of the resolved walls one cell bridges the buffer layer (y+ above
-/// 30), which leaves a fraction of the friction. Empty where they may be right. The same on all ranks. Collective.
-std::string unresolved_walls(const aero::FlowSolver& solver, const runtime::World& world);
+/// 30), or, without a rotor, cells grow by more than aero::useless_growth from layer to layer. Empty where they may be right. The
+/// same on all ranks. Collective.
+std::string unresolved_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario, const runtime::World& world);
 
 /// aero::doubts_of them, on the first rank; none on others. Collective.
-std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const runtime::World& world);
+std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario,
+                                         const runtime::World& world);
 
 }  // namespace spindrift::run

@@ -159,7 +159,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
       advance.settled = fmt::format("{}; flux balance at {:.2g}, density residual at {:.2g} of the start", march.why,
                                     march.balance_drop(), march.density_drop());
     if (!advance.settled.empty())
-      if (const std::string walls = unresolved_walls(solver, world_); !walls.empty())
+      if (const std::string walls = unresolved_walls(solver, scenario_, world_); !walls.empty())
         advance.failure = fmt::format("aero: {}, but {}", std::exchange(advance.settled, {}), walls);
     solver.judgement().rows.keep_last();
   } else {
@@ -203,7 +203,7 @@ std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
 std::string FlowSimulation::failure_at_end() const {
   const aero::FlowOptions& o = *scenario_.aero.flow;
   if (!air_.steady() || o.drop <= 0.0) {
-    const std::string walls = unresolved_walls(air_.solver(), world_);
+    const std::string walls = unresolved_walls(air_.solver(), scenario_, world_);
     return walls.empty() ? walls : "aero: " + walls;
   }
   const aero::MarchState& march = air_.solver().march();
@@ -250,7 +250,7 @@ void FlowSimulation::write_at_end(std::int64_t window) {
   const auto fields = std::make_shared<const coupling::AirOutput>(
       world_.comm, air_.solver(), directory_.fields(), coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
   output_.hand_on([fields, write = fields->copy(window, timeline_.window_end_s(window))] { write(); });
-  for (const std::string& doubt : doubts_of_walls(air_.solver(), world_)) {
+  for (const std::string& doubt : doubts_of_walls(air_.solver(), scenario_, world_)) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());
   }

@@ -38,6 +38,8 @@ def end_of(case):
         said = (done.stderr + done.stdout).strip()
         if done.returncode == 3 and (summary := pathlib.Path(scratch, "out/summary.json")).exists():
             said = json.loads(summary.read_text())["exit_reason"]
+        if done.returncode == 0:
+            said = "\n".join(json.loads(pathlib.Path(scratch, "out/summary.json").read_text())["numerical_trouble"])
         return done.returncode, said, {c: largest(scratch + "/out/history.csv", c, scene.get("last", False)) for c in columns} if done.returncode == 0 else {}
 
 
@@ -53,6 +55,9 @@ def verdict(case):
         if "reaches" not in case:
             return how, f"should be {case.get('ends', 'refused')} for {case['named']}"
         ranges = case["reaches"] if isinstance(case["reaches"], dict) else dict.fromkeys(reached, case["reaches"])
+        if case.get("doubted", "") not in said:
+            return how, f"does not warn of {case['doubted']}: {said}"
+        how += f", with a warning: {case['doubted']}" if "doubted" in case else ""
         return how, "; ".join(f"should reach {low} to {high}" for c, (low, high) in ranges.items() if not low <= reached[c] <= high)
     how = f"{ENDS[code]}: " + said.splitlines()[-1].split(": ", 1)[-1].replace(f"{ROOT}/", "")[:160]
     if "reaches" in case:

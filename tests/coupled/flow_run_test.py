@@ -46,7 +46,7 @@ class FlowRun(Folder):
     def test_first_cells_a_hundred_times_too_coarse_are_said_before_and_after_the_run(self):
         scene = CASES / "naca0012/family.toml"
         coarse = ["--set", "aero.flow.generate.refinement=1", "--set", "aero.flow.generate.first_cell_m=3.6e-4"]
-        fine = ["--set", "aero.flow.generate.refinement=1"]
+        fine = ["--set", "aero.flow.generate.refinement=2"]
         words = "friction is not to be trusted"
         done = spindrift("check", scene, *coarse)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -65,6 +65,23 @@ class FlowRun(Folder):
             self.assertEqual(bool(trouble), bad, trouble)
             for file in ("log.txt", "report.html"):
                 self.assertEqual(words in (self.out / file).read_text(), bad, file)
+
+    def test_cells_that_grow_fast_off_the_wall_are_said_with_what_mends_it(self):
+        naca, stretched = CASES / "naca0012", f"{ROOT}/tests/extremes/files/aerofoil_stretched"
+        for scene, grid, growth, remedy in ((naca / "family.toml", ["aero.flow.generate.refinement=1"], "1.7", "raise aero.flow.generate.refinement"),
+                                            (naca / "naca0012.toml", [f'aero.flow.grid="{stretched}.p3d"', f'aero.flow.map="{stretched}.nmf"'], "2 in the middle", "take a grid with more layers")):
+            doubt = f"cells grow from layer to layer off resolved walls by {growth}"
+            done = spindrift("check", scene, settings=grid)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            for text in ("growth off resolved", "warning: " + doubt, "drag is not to be trusted; " + remedy):
+                self.assertIn(text, done.stdout)
+            done = spindrift("run", scene, "--out", self.out, "--overwrite", "--no-report", settings=[*grid, "time.end_s=40.0", "aero.flow.drop=0.0", "output.expected=[]"])
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            trouble = json.loads((self.out / "summary.json").read_text())["numerical_trouble"]
+            self.assertTrue(any(doubt in text and remedy in text for text in trouble), trouble)
+        done = spindrift("check", naca / "naca0012.toml")
+        self.assertIn("growth off resolved", done.stdout)
+        self.assertNotIn("warning: cells grow", done.stdout)
 
     def test_ranks_do_not_change_a_bit(self):
         scene, more = CASES / "cylinder_low_mach/cylinder.toml", ("--until", 12, "--no-report")

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "src/aero/flow/sweep.hpp"
+#include "src/aero/grid/line_growth.hpp"
 
 namespace spindrift::aero {
 
@@ -25,6 +26,20 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
       body(boundary, k, j, i, f, wall_pressure(tile, state, side, k, j, i), friction);
     });
   }
+}
+
+/// FirstCell::growth of the line of cells that leaves a wall, within the tile; of the first one, its y+ and its centre's
+/// distance.
+double growth_of_line(const FlowTile& tile, Side side, Index at, double y_plus, double distance) {
+  const int d = direction_of(side), cells = d == 0 ? tile.box.ni : d == 1 ? tile.box.nj : tile.box.nk;
+  const TileGeometry& g = *tile.geometry;
+  LineGrowth growth(distance > 0.0 ? wall_layer_y_plus * distance / std::max(y_plus, 1e-12) : 0.0);
+  for (int n = 0; n < cells && !growth.done(); ++n, at[std::size_t(d)] += at_end(side) ? -1 : 1) {
+    const auto [i, j, k] = at;
+    const double areas = face_at(g, d, k, j, i).area + face_at(g, d, k + (d == 2), j + (d == 1), i + (d == 0)).area;
+    growth.add(2.0 * g.volume_data.data()[g.cell_box.at(k, j, i)] / areas);
+  }
+  return growth.largest();
 }
 
 }  // namespace
@@ -80,7 +95,10 @@ void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting
               const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
               const Eigen::Vector3d n(f.nx, f.ny, f.nz),
                   shear = friction - friction.dot(n) * n;  // 2/3 rho k pushes on walls with a wall function
-              if (viscous.active) point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
+              if (viscous.active) {
+                point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
+                point.growth = growth_of_line(tile, boundary.where.side, {i, j, k}, point.y_plus, distance);
+              }
               points.push_back(point);
             });
 }

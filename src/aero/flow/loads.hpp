@@ -46,6 +46,7 @@ struct WallPoint {
   std::array<double, 3> traction{};  ///< viscous, of the flow on the wall [Pa]
   double pressure = 0.0;             ///< above the reference [Pa]
   double area = 0.0, y_plus = 0.0;
+  double growth = 1.0;  ///< as FirstCell::growth
 };
 void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting& viscous, const BoundarySetting& boundary,
                  std::vector<WallPoint>& points);

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/line_growth.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/aero/turbine.hpp"
 
@@ -32,19 +34,76 @@ TEST_CASE("the y+ expected on a plate follows from its first cells, its Reynolds
   double area = 0.0;
   for (const FirstCell& c : cells.resolved) area += c.area;
   CHECK(area == Approx(2.0));
-  CHECK(doubts_of(cells).empty());
+  REQUIRE(doubts_of(cells, "").size() == 1);  // no first cell is doubted, the growth of so few layers is
+  CHECK_THAT(doubts_of(cells, "")[0], Contains("cells grow from layer to layer"));
+  CHECK(doubts_of(expected_first_cells(flat_plate(4), o, setting), "").empty());
   o.turbulence = "none";
   CHECK(expected_first_cells(grid, o, flow_setting(o, 1.2, {60.0, 0.0, 0.0}, 0.0)).resolved.empty());
 }
 
 TEST_CASE("a tenth of the walls' area off what their treatment wants is doubted, less is not", "[flow][fast]") {
-  CHECK(doubts_of({.resolved = {{0.91, 1.0}, {0.09, 50.0}}, .by_law = {{0.91, 100.0}, {0.09, 1e5}}}).empty());
-  const auto coarse = doubts_of({.resolved = {{0.8, 1.0}, {0.2, 50.0}}, .by_law = {}});
+  CHECK(doubts_of({.resolved = {{0.91, 1.0}, {0.09, 50.0}}, .by_law = {{0.91, 100.0}, {0.09, 1e5}}}, "").empty());
+  const auto coarse = doubts_of({.resolved = {{0.8, 1.0}, {0.2, 50.0}}, .by_law = {}}, "");
   REQUIRE(coarse.size() == 1);
   CHECK_THAT(coarse[0], Contains("50 at most") && Contains("resolved walls want 0 to 5") && Contains("20 % of their area"));
-  const auto fine = doubts_of({.resolved = {}, .by_law = {{1.0, 2.0}}});
+  const auto fine = doubts_of({.resolved = {}, .by_law = {{1.0, 2.0}}}, "");
   REQUIRE(fine.size() == 1);
   CHECK_THAT(fine[0], Contains("wall-function walls want 15 to 1000"));
+}
+
+TEST_CASE("growth counts from the wall to y+ 300, shrinking like growing, and not beyond", "[flow][fast]") {
+  FlowOptions o;
+  o.viscosity_Pa_s = 1e-5;
+  o.boundaries = {{.patch = "wall", .condition = Condition::no_slip}, {.patch = "top", .condition = Condition::far_field}};
+  MultiBlockGrid grid = flat_plate(1);
+  const FlowSetting setting = flow_setting(o, 1.2, {60.0, 0.0, 0.0}, 0.0);
+  Block& block = grid.blocks[0];
+  const auto z = [&](int j, int i) -> double& { return block.nodes[block.node(0, j, i)].z(); };
+  // Heights of 1, 1.2, 1.44 ... times 1e-5 m, but for one layer of 1.8 times its lower neighbour's, and twice that far away.
+  const auto stretch = [&](int odd, double times) {
+    for (int k = 0; k <= block.nk; ++k)
+      for (int i = 0; i <= block.ni; ++i) {
+        double height = 1e-5;
+        for (int j = 1; j <= block.nj; ++j) {
+          block.nodes[block.node(k, j, i)].z() = block.nodes[block.node(k, j - 1, i)].z() + height;
+          height *= j == odd ? times : 1.2;
+        }
+      }
+  };
+  const auto growth = [&] { return expected_first_cells(grid, o, setting).resolved.back().growth; };
+  stretch(-1, 1.0);
+  CHECK(growth() == Approx(1.2).epsilon(1e-9));
+  const double y_plus = expected_first_cells(grid, o, setting).resolved.back().y_plus, unit = 0.5e-5 / y_plus;
+  int last = 0;  // layer whose upper face is the last one below y+ 300
+  while (z(last + 1, block.ni) < wall_layer_y_plus * unit) ++last;
+  REQUIRE(last > 4);
+  REQUIRE(last + 2 < block.nj);
+  for (const int layer : {1, 3, last}) {
+    stretch(layer, 1.8);
+    CHECK(growth() == Approx(1.8).epsilon(1e-9));
+    stretch(layer, 1.0 / 1.8);
+    CHECK(growth() == Approx(1.8).epsilon(1e-9));
+  }
+  stretch(last + 1, 1.8);
+  CHECK(growth() == Approx(1.2).epsilon(1e-9));
+}
+
+TEST_CASE("growth above 1.5 over a tenth of resolved walls is doubted with what mends it, at walls by the law it is not",
+          "[flow][fast]") {
+  CHECK(doubts_of({.resolved = {{0.91, 1.0, 1.4}, {0.09, 1.0, 3.0}}, .by_law = {}}, "").empty());
+  CHECK(doubts_of({.resolved = {}, .by_law = {{1.0, 100.0, 3.0}}}, "").empty());
+  FlowOptions o;
+  o.grid = "coarse.p3d";
+  const auto doubts = doubts_of({.resolved = {{0.4, 1.0, 1.4}, {0.4, 1.0, 1.4}, {0.2, 1.0, 1.6}}, .by_law = {}}, more_layers(o));
+  REQUIRE(doubts.size() == 1);
+  CHECK_THAT(doubts[0], Contains("1.4 in the middle, 1.6 at most") && Contains("20 % of the walls' area has more than 1.5") &&
+                            Contains("more layers than aero.flow.grid = \"coarse.p3d\""));
+  o.generate.emplace();
+  for (const auto& [kind, key] :
+       {std::pair{"naca0012", "refinement"}, {"cylinder", "outward"}, {"box", "cells"}, {"stretched_box", "growth"}}) {
+    o.generate->kind = kind;
+    CHECK_THAT(more_layers(o), Contains(std::string("aero.flow.generate.") + key));
+  }
 }
 
 TEST_CASE("the y+ expected on a rotor's blades is that asked of its grid, and says which walls suit them", "[flow][fast]") {
@@ -75,11 +134,11 @@ TEST_CASE("the y+ expected on a rotor's blades is that asked of its grid, and sa
   CHECK(suits_wall_law(s));
   s.grid.y_plus = 1.0;
   CHECK_FALSE(suits_wall_law(s));
-  CHECK(doubts_of(expected_first_cells(s)).size() == 1);  // by the law, which wants 15
+  CHECK(doubts_of(expected_first_cells(s), "").size() == 1);  // by the law, which wants 15
   s.grid = {}, s.flow.blades = Condition::no_slip;
   CHECK(suits_wall_law(s));
-  REQUIRE(doubts_of(expected_first_cells(s)).size() == 1);
-  CHECK_THAT(doubts_of(expected_first_cells(s))[0], Contains("resolved walls want 0 to 5"));
+  REQUIRE(doubts_of(expected_first_cells(s), "").size() == 1);
+  CHECK_THAT(doubts_of(expected_first_cells(s), "")[0], Contains("resolved walls want 0 to 5"));
   s.rotor.speed = 0.0;
   CHECK(suits_wall_law(s));  // at an assumed speed
   for (const char* without : {"none", "les_wale"}) {
