@@ -325,7 +325,11 @@ Table<aero::MarchState> march_columns() {
        [](Of m) { return m.balance_drop(); }},
       {"unconverged_steps", "-", "steps so far that spent their pseudo-steps without the drop",
        [](Of m) { return double(m.unconverged); }},
-      {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl; }}};
+      {"cfl", "-", "CFL number of the last pseudo-step", [](Of m) { return m.cfl; }},
+      {"limited_cells", "-", "cells whose pressure, temperature or velocity its update would have changed by too much",
+       [](Of m) { return m.last.limited; }},
+      {"clipped_cells", "-", "cells in which its update of turbulence was shortened to keep it above its bound",
+       [](Of m) { return m.last.clipped; }}};
   return table;
 }
 

@@ -29,6 +29,10 @@ Table<aero::PseudoRow> pseudo_step_columns() {
       {"pseudo_steps", "-", "pseudo-steps: so far (steady), of the window (unsteady)", [](Of p) { return double(p.step + 1); }},
       {"update_fraction", "-", "part of the last update that was made: less than 1 where a cell's was too large",
        [](Of p) { return p.fraction; }},
+      {"limited_cells", "-", "cells whose pressure, temperature or velocity the last update would have changed by too much",
+       [](Of p) { return p.limited; }},
+      {"clipped_cells", "-", "cells in which the last update of turbulence was shortened to keep it above its bound",
+       [](Of p) { return p.clipped; }},
       {"balance_drop", "-", "norm of all scaled flux balances over that of the start", [](Of p) { return p.balance_drop; }}};
   return table;
 }

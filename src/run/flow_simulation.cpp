@@ -148,11 +148,13 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
                  coupling::most_retries, coupling::share_of_cfl(retry + 1));
   }
   Advance advance;
+  if (!air_.steady()) count_limits(solver.rows());
   if (air_.steady()) {
     // The last row of a chunk that goes on is judged, and written, by the next.
     const std::size_t judged = solver.rows().size() - (march.spent ? 1 : 0);
     // One that has begun again has a row more, of where it began.
     rows_.assign(solver.rows().begin(), solver.rows().begin() + std::ptrdiff_t(std::min(std::int64_t(judged), left)));
+    count_limits(rows_);
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
     if (march.verdict == aero::Verdict::converged && !march.spent)
@@ -170,6 +172,23 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;
+}
+
+void FlowSimulation::count_limits(std::span<const aero::PseudoRow> rows) {
+  for (const aero::PseudoRow& row : rows) {
+    limits_.shortened += row.limited > 0.0, limits_.clipped += row.clipped > 0.0;
+    limits_.most_limited = std::max(limits_.most_limited, std::int64_t(row.limited));
+    limits_.most_clipped = std::max(limits_.most_clipped, std::int64_t(row.clipped));
+  }
+}
+
+/// Of the updates so far, with the place of the worst cells; empty where no cell had a limit. Collective.
+std::string FlowSimulation::limits() const {
+  if (limits_.shortened == 0 && limits_.clipped == 0) return {};
+  return fmt::format(
+      "{} pseudo-steps were shortened, as up to {} cells would have changed too much; in {} turbulence's update was, in up to {} "
+      "cells, to keep it above its bound; most: {}",
+      limits_.shortened, limits_.most_limited, limits_.clipped, limits_.most_clipped, air_.solver().limited_cells(world_.comm));
 }
 
 /// Of a steady march that comes to nothing, for this reason; false where there is no other way to begin it.
@@ -254,6 +273,7 @@ void FlowSimulation::write_at_end(std::int64_t window) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());
   }
+  if (const std::string text = limits(); !text.empty()) spdlog::info("air: {}", text);
   if (air_.actuator() && windows_ > 0) coupling::write_span(world_, air_.actuator()->span_loads(), directory_);
   if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
   while (last_rows_.size() > averaged(window)) last_rows_.pop_front();
@@ -265,6 +285,8 @@ void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
   summary.counts.emplace_back("cells", air_.solver().cells());
   summary.numerical_trouble.insert(summary.numerical_trouble.end(), doubts_.begin(), doubts_.end());
   summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total);
+  summary.counts.emplace_back("shortened_pseudo_steps", limits_.shortened);
+  summary.counts.emplace_back("clipped_pseudo_steps", limits_.clipped);
 }
 
 }  // namespace spindrift::run

@@ -30,7 +30,7 @@ void March::begin_step() {
   last_step_ = judging_only_ ? 0 : most_;
   s_.first = {};
   s_.matrix_free = s_.spent = false;
-  s_.last.fraction = 1.0, s_.last.linear_drop = 0.0;
+  s_.last.fraction = 1.0, s_.last.linear_drop = s_.last.limited = s_.last.clipped = 0.0;
   made_ = Made::nothing;
   ceiling_ = matrix_.cfl = 0.0;
   loads_.clear();
@@ -56,7 +56,7 @@ void March::for_saved(Self& m, Body&& body) {
   each(s.cfl, s.last.cfl, s.now.density, s.mass_residual, s.first.density, s.now.mean, s.last.fraction, s.last.linear_drop,
        s.steps, s.rejections, m.rejected_in_a_row_, s.last.krylov, m.ceiling_, m.matrix_.age, m.matrix_.drop, s.matrix_free,
        s.now.mean, s.now.model, s.first.mean, s.first.model, s.ended, s.unconverged, s.spent, m.reference_.density,
-       m.reference_.mean, m.reference_.model, s.steps_before, m.better_, s.still_for);
+       m.reference_.mean, m.reference_.model, s.steps_before, m.better_, s.still_for, s.last.limited, s.last.clipped);
 }
 
 std::vector<double> March::save() const {
@@ -112,6 +112,7 @@ Verdict March::judge(const Norms& n, double load) {
   const bool fresh = s_.steps == 0;
   const Made made = std::exchange(made_, Made::nothing);
   const bool stepped = made == Made::step;
+  if (stepped) s_.last.limited = n.limited, s_.last.clipped = n.clipped;
   const bool leapt = stepped && n.model > n.mean && found.model > o_.leap_limit * before.model && before.model > 0.0;
   ++s_.steps;
   if (n.broken > 0.0 || !std::isfinite(found.mean) || made == Made::singular_matrix || leapt ||
@@ -207,7 +208,7 @@ const char* March::why_done(const Norms& n) const {
 
 void March::updated(double fraction, int krylov, double linear_drop) {
   made_ = Made::step;
-  s_.last = {s_.cfl, fraction, linear_drop, krylov};
+  s_.last = {.cfl = s_.cfl, .fraction = fraction, .linear_drop = linear_drop, .krylov = krylov};
   if (s_.refresh) matrix_.drop = linear_drop;
   s_.krylov_total += krylov;
 }

@@ -38,9 +38,10 @@ struct Norms {
   double mean = 0.0;     ///< of squared scaled residuals of the mean flow
   double model = 0.0;    ///< of the turbulence unknowns
   double cells = 1.0;
-  double broken = 0.0;  ///< cells whose residual is not finite
-  double noise = 0.0;   ///< sum of mean and model that round-off alone may have
-  double forced = 0.0;  ///< of squared scaled forces inside the air: what they do to an undisturbed flow
+  double broken = 0.0;                  ///< cells whose residual is not finite
+  double noise = 0.0;                   ///< sum of mean and model that round-off alone may have
+  double forced = 0.0;                  ///< of squared scaled forces inside the air: what they do to an undisturbed flow
+  double limited = 0.0, clipped = 0.0;  ///< as PseudoStep has them, of the update that led to the state
 };
 
 /// stopped: the run was asked to stop; a steady march goes on from there, a physical step is to be made again.
@@ -60,6 +61,8 @@ struct PseudoStep {
   double fraction = 1.0;     ///< of the update that was applied
   double linear_drop = 0.0;  ///< of the linear system's residual
   int krylov = 0;            ///< iterations
+  double limited = 0.0;      ///< cells whose own bounds on pressure, temperature or velocity its update went beyond
+  double clipped = 0.0;      ///< cells in which that of turbulence was shortened to stay above its bound
 };
 
 /// Where a march is, as last judged.

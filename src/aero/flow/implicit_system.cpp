@@ -227,14 +227,16 @@ double ImplicitSystem::update_fraction(FlowTile& tile) const {
   constexpr double most_speed = 0.5;  // of the cell's speed or the flow's, the larger of both
   double fraction = 1.0;
   if (tile.limit.fraction < 0.0 || preconditioner_->singular()) return -1.0;
-  tile.limit = {};
+  tile.limit = {}, tile.limited = 0;
   const Scales& s = setting_.scales;
   const float* d = x;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; ++i, d += mean_unknowns) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
+      bool limited = false;
       const auto limit = [&](double change, double bound, const char* what) {
         if (std::abs(change) <= bound) return;
+        limited = true;
         const double allowed = std::isfinite(change) ? bound / std::abs(change) : 0.0;  // not a number must not hide
         if (allowed < fraction) fraction = allowed, tile.limit = {allowed, {i, j, k}, what};
       };
@@ -242,13 +244,16 @@ double ImplicitSystem::update_fraction(FlowTile& tile) const {
       limit(double(d[4]) * s.unknown[4], most * gas::absolute_temperature(gas_, q), "the change of temperature in");
       limit(std::hypot(double(d[1]), double(d[2]), double(d[3])) * s.unknown[1],
             most_speed * std::max(speed_, std::sqrt(2.0 * gas::kinetic(q))), "the change of velocity in");
+      tile.limited += limited;
     }
   });
+  if (fraction < tile.worst_limit.fraction) tile.worst_limit = tile.limit;
   return fraction;
 }
 
 void ImplicitSystem::apply_update(FlowTile& tile) const {
   std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
+  tile.clipped = 0;
   const double share = fraction.one();
   if (share < 0.0) return;
   const float* d = cycle_.solution(tile);
@@ -262,13 +267,21 @@ void ImplicitSystem::apply_update(FlowTile& tile) const {
   if (tile.turbulence == 0) return;
   // An update that would take more than nine tenths of a quantity that must stay above its bound is shortened in that cell.
   for_rows(tile.box, [&](int k, int j) {
-    for (int i = 0; i < tile.box.ni; ++i)
+    for (int i = 0; i < tile.box.ni; ++i) {
+      bool clipped = false;
       for (int t = 0; t < tile.turbulence; ++t) {
         double& q = tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component];
         const double change = share * s.model_unknown[std::size_t(t)] * double(*d++),
                      low = residual_.model().lowest[std::size_t(t)];
+        if (const double most = 0.9 * (q - low); change < -most) {
+          clipped = true;
+          if (const double allowed = most / -change; allowed < tile.worst_clip.fraction)
+            tile.worst_clip = {allowed, {i, j, k}, "the change of turbulence in"};
+        }
         q += std::max(change, -0.9 * (q - low));
       }
+      tile.clipped += clipped;
+    }
   });
 }
 

@@ -17,7 +17,7 @@ namespace spindrift::aero {
 namespace {
 
 /// Of `norms`; the mass balance follows what the march needs.
-constexpr std::size_t first_of_mass = 8, norm_count = first_of_mass + mass_components;
+constexpr std::size_t first_of_mass = 10, norm_count = first_of_mass + mass_components;
 
 /// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e17 of the pressure on all
 /// faces, which is 1 / (gamma M^2) in their units.
@@ -112,6 +112,7 @@ void Judgement::measure(std::size_t owned, const ImplicitSystem& system, const F
     partial[0] += density, partial[1] += mean, partial[2] += model, partial[4] += mass;
   });
   partial[6] = runtime::StopRequest::asked() ? 1.0 : 0.0;
+  partial[8] = double(tile.limited), partial[9] = double(tile.clipped);
   if (body_force_ && tile.source.size() > 0)
     for_rows(tile.box, [&](int k, int j) {
       double forced = 0.0;
@@ -148,7 +149,9 @@ Norms Judgement::sums() const {
           .cells = double(arrays_.cells()),
           .broken = norms.result[3],
           .noise = norms.result[5],
-          .forced = norms.result[7]};
+          .forced = norms.result[7],
+          .limited = norms.result[8],
+          .clipped = norms.result[9]};
 }
 
 void Judgement::judge() {
@@ -178,6 +181,8 @@ void Judgement::judge() {
             .model_residual = std::sqrt(n.model),
             .balance_drop = m.balance_drop(),
             .fraction = m.last.fraction,
+            .limited = m.last.limited,
+            .clipped = m.last.clipped,
             .matrix_free = matrix_free_,
             .mass = mass(),
             .force = {force[0], force[1], force[2]},
@@ -203,6 +208,39 @@ void Judgement::name_trouble() {
   const Index at = tile.to_block(worst->limit.cell);
   trouble_ = std::string("; ") + worst->limit.what + " block " + std::to_string(tile.block) + " cell (" + std::to_string(at[0]) +
              ", " + std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
+}
+
+std::string limited_cells(const TileArrays& arrays, MPI_Comm comm) {
+  const auto worst = [&](auto&& limit_of) {
+    const FlowTile* tile = nullptr;
+    for (const FlowTile& t : arrays.tiles)
+      if (limit_of(t).fraction < (tile ? limit_of(*tile).fraction : 1.0)) tile = &t;
+    std::string text;
+    double fraction = 1.0;
+    if (tile) {
+      const UpdateLimit& limit = limit_of(*tile);
+      fraction = limit.fraction;
+      const auto [i, j, k] = limit.cell;
+      const Index cell = arrays.of(*tile).to_block(limit.cell);
+      const BoxLayout& centres = tile->geometry->cell_box;
+      const double* x = tile->geometry->centre_data.data() + centres.at(k, j, i);
+      text = fmt::format("{} block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m, to {:.2g} of itself", limit.what,
+                         arrays.of(*tile).block, cell[0], cell[1], cell[2], x[0], x[centres.component], x[2 * centres.component],
+                         fraction);
+    }
+    runtime::Packer mine;
+    mine.put_one(fraction), mine.put(std::span<const char>(text));
+    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
+      runtime::Unpacker from(bytes);
+      const auto other = from.one<double>();
+      const std::vector<char> said = from.many<char>();
+      if (other < fraction) fraction = other, text.assign(said.begin(), said.end());
+    }
+    return text;
+  };
+  const std::string mean = worst([](const FlowTile&t) -> const UpdateLimit& { return t.worst_limit; }),
+                    model = worst([](const FlowTile&t) -> const UpdateLimit& { return t.worst_clip; });
+  return mean.empty() || model.empty() ? mean + model : mean + " and " + model;
 }
 
 std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, MPI_Comm comm) {

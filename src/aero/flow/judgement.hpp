@@ -26,7 +26,7 @@ namespace spindrift::aero {
 struct PseudoRow {
   int step = 0, krylov = 0, rejections = 0, matrices = 0;  ///< matrices made so far
   double cfl = 0.0, density_residual = 0.0, mass_residual = 0.0, mean_residual = 0.0, model_residual = 0.0, balance_drop = 0.0,
-         fraction = 1.0;
+         fraction = 1.0, limited = 0.0, clipped = 0.0;  ///< as PseudoStep has them
   bool matrix_free = false;
   MassBalance mass{};              ///< of the whole grid
   std::array<double, 3> force{};   ///< of all patches with loads [N]
@@ -104,6 +104,10 @@ class Judgement {
   int matrices_ = 0;  ///< made so far
   std::string trouble_;
 };
+
+/// Where updates were shortened most since the tiles were made: the cell that bound that of the mean flow, and the one in which
+/// turbulence's was; a part of a sentence, empty where none was. Collective; of equally bad cells that of the first rank.
+std::string limited_cells(const TileArrays& arrays, MPI_Comm comm);
 
 /// Where the flow is farthest from its balance, as last judged: cells of the mean flow and of turbulence, a sentence. Collective.
 std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, MPI_Comm comm);

@@ -90,6 +90,29 @@ TEST_CASE("linear systems that were hardly solved lower the CFL number, shortene
   CHECK(march.state().cfl == Approx(6.0));
 }
 
+TEST_CASE("cells that had a limit are those of the step that led to a state, also where a restart judges it again",
+          "[flow][fast]") {
+  March march({.cfl_start = 10.0});
+  march.begin_step();
+  march.judge(of(1.0), 0.0);
+  march.updated(0.5, 5, 0.1);
+  Norms counted = of(0.9);
+  counted.limited = 3.0, counted.clipped = 7.0;
+  march.judge(counted, 0.0);
+  CHECK(march.state().last.limited == 3.0);
+  CHECK(march.state().last.clipped == 7.0);
+  March again({.cfl_start = 10.0});
+  again.load(march.save());
+  again.resume();
+  again.judge(of(0.9), 0.0);  // tiles that were made anew have counted nothing
+  CHECK(again.state().last.limited == 3.0);
+  CHECK(again.state().last.clipped == 7.0);
+  again.updated(1.0, 5, 0.1);
+  again.judge(of(0.8), 0.0);
+  CHECK(again.state().last.limited == 0.0);
+  CHECK(again.state().last.clipped == 0.0);
+}
+
 TEST_CASE("a density residual below the absolute limit ends a march whatever its drop", "[flow][fast]") {
   March march({.drop = 0.0, .absolute = 1e-2});
   march.begin_step();

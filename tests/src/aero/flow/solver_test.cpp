@@ -1,5 +1,6 @@
 // The march as a whole: a uniform stream stays one, a disturbed one becomes one, and the bits are the same for any threads, ranks
 // and schedules. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -131,6 +132,36 @@ TEST_CASE("a state without a finite residual is refused by name, not marched on"
   c.run();
   CHECK(c.solver->march().verdict == Verdict::failed);
   CHECK(c.solver->judgement().trouble().find("no finite residual in the row of block 0 cell (") != std::string::npos);
+}
+
+TEST_CASE("cells whose bounds shorten an update are counted, and the worst of them has its place", "[flow][fast]") {
+  FlowSetting setting = viscous_air();
+  setting.march.cfl_start = 1e3, setting.march.max_steps = 12;
+  Case weak = bump(setting, 1, 0), strong = bump(setting, 1, 0);
+  strong.solver->start([&](const Eigen::Vector3d& x) {
+    gas::Primitive<double> q = setting.stream;
+    const double height = std::exp(-20.0 * (x - Eigen::Vector3d::Constant(0.5)).squaredNorm());
+    q.p += 6e4 * height, q.T += 60.0 * height;
+    return q;
+  });
+  for (Case* c : {&weak, &strong}) {
+    c->prepare();
+    c->run();
+  }
+  for (const PseudoRow& row : weak.solver->rows()) CHECK(row.limited == 0.0);
+  CHECK(weak.solver->limited_cells(MPI_COMM_SELF).find("the change of velocity") == std::string::npos);
+  double most = 0.0, least_fraction = 1.0;
+  for (const PseudoRow& row : strong.solver->rows()) {
+    CHECK((row.limited > 0.0) == (row.fraction < 1.0));
+    most = std::max(most, row.limited), least_fraction = std::min(least_fraction, row.fraction);
+  }
+  CHECK(most > 1.0);
+  CHECK(most < double(strong.solver->cells()));
+  const std::string worst = strong.solver->limited_cells(MPI_COMM_SELF);
+  INFO(worst);
+  CHECK(worst.find("the change of ") == 0);
+  CHECK(worst.find("block 0 cell (") != std::string::npos);
+  CHECK(worst.find(fmt::format("to {:.2g} of itself", least_fraction)) != std::string::npos);
 }
 
 // The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps
