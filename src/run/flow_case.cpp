@@ -237,8 +237,11 @@ void FlowCase::return_to(const aero::FlowSnapshot& to, std::int64_t window, doub
 void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Executor& march, const runtime::World& world) {
   const aero::FlowOptions& o = *s.aero.flow;
   std::vector<aero::MultiBlockGrid> grids = std::move(coarser_grids_);
-  if (grids.empty()) return;
+  const bool from_rest = o.start == "rest";
+  if (grids.empty() && !from_rest) return;
+  if (from_rest) solver_->start_uniform();
   evaluate_start(*solver_, march);
+  if (from_rest) begin(o.start);
   std::unique_ptr<FlowCase> coarser;
   while (!grids.empty()) {
     std::unique_ptr<FlowCase> next(
@@ -249,10 +252,14 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     runtime::Graph graph(world.comm);
     solver.record(graph);
     runtime::Executor executor(std::move(graph));
-    if (coarser) {
+    if (coarser || from_rest) {
+      if (from_rest) solver.start_uniform();
       evaluate_start(solver, executor);
-      aero::begin_with(coarser->solver(), solver, {}, world.comm);
-      solver.judgement().march.begin_after_judging();
+      if (coarser)
+        aero::begin_with(coarser->solver(), solver, {}, world.comm);
+      else
+        next->begin(o.start);
+      solver.judgement().march.begin_after_judging(from_rest);
     }
     executor.run();
     const aero::MarchState& done = solver.march();
@@ -275,7 +282,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     coarser = std::move(next);
   }
   if (coarser) aero::begin_with(coarser->solver(), *solver_, {}, world.comm), start_ = Start::coarser_grids;
-  solver_->judgement().march.begin_after_judging();
+  solver_->judgement().march.begin_after_judging(from_rest);
 }
 
 void FlowCase::take(Start start) {

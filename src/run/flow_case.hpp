@@ -59,7 +59,8 @@ class FlowCase {
 
   /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
   /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on
-  /// each grid. `march` is the fine one's. A coarser grid whose march fails, or whose flow does not settle, is passed over.
+  /// each grid; also of a flow that begins at rest, with or without coarser grids. `march` is the fine one's. A coarser grid
+  /// whose march fails, or whose flow does not settle, is passed over.
   void start_on_coarser_grids(const coupling::Scenario& scenario, runtime::Executor& march, const runtime::World& world);
 
  private:

@@ -36,8 +36,9 @@ void March::begin_step() {
   loads_.clear();
 }
 
-void March::begin_after_judging() {
+void March::begin_after_judging(bool alone) {
   reference_ = s_.now;
+  alone_ = alone && s_.now.mean > 0.0;
   reopen();  // a judgement is no march
   judging_only_ = false;
   begin_step();
@@ -56,7 +57,7 @@ void March::for_saved(Self& m, Body&& body) {
   each(s.cfl, s.last.cfl, s.now.density, s.mass_residual, s.first.density, s.now.mean, s.last.fraction, s.last.linear_drop,
        s.steps, s.rejections, m.rejected_in_a_row_, s.last.krylov, m.ceiling_, m.matrix_.age, m.matrix_.drop, s.matrix_free,
        s.now.mean, s.now.model, s.first.mean, s.first.model, s.ended, s.unconverged, s.spent, m.reference_.density,
-       m.reference_.mean, m.reference_.model, s.steps_before, m.better_, s.still_for, s.last.limited, s.last.clipped);
+       m.reference_.mean, m.reference_.model, s.steps_before, m.better_, s.still_for, s.last.limited, s.last.clipped, m.alone_);
 }
 
 std::vector<double> March::save() const {
@@ -162,8 +163,9 @@ Verdict March::reject(bool leapt) {
 /// The first state of a march has been found good.
 void March::begin_drop(const Norms& n) {
   const Residuals& least = reference_;
-  s_.first = {std::max(s_.now.density, least.density), std::max({s_.now.mean, least.mean, std::sqrt(n.forced)}),
-              std::max(s_.now.model, least.model)};
+  const Residuals own = alone_ ? Residuals{.density = s_.now.density} : s_.now;
+  s_.first = {std::max(own.density, least.density), std::max({own.mean, least.mean, std::sqrt(n.forced)}),
+              std::max(own.model, least.model)};
   if (least.density > 0.0)
     s_.cfl = std::clamp(o_.cfl_start * s_.first.density / s_.now.density, s_.cfl, std::max(s_.cfl, o_.cfl_max));
 }

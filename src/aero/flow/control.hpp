@@ -110,8 +110,10 @@ class March {
   void resume();
   /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
   void judge_only() { judging_only_ = true; }
-  /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop.
-  void begin_after_judging();
+  /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop:
+  /// where it is more than that of the new state, or `alone`, whatever that has. An impulsive start's may be a hundred times as
+  /// large, and the same drop from it ends a flow that has not settled.
+  void begin_after_judging(bool alone = false);
   /// Whether a steady march that is to end by its flux balance will not: it stands still, or takes steps of no length.
   bool stands_still() const;
   /// From another state, or by another pseudo-time: the steps made so far still count.
@@ -149,7 +151,8 @@ class March {
 
   MarchOptions o_;
   MarchState s_;
-  Residuals reference_;   ///< least that count as those of the start
+  Residuals reference_;  ///< least that count as those of the start, or, of the flux balance, the only ones
+  bool alone_ = false;
   double eased_ = 1.0;    ///< share of the scene's largest CFL number
   double ceiling_ = 0.0;  ///< of the CFL number after a leap of turbulence; 0: none
   double better_ = 0.0;   ///< the balance's drop when it last came to half of what it was

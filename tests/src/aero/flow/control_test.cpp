@@ -168,6 +168,22 @@ TEST_CASE("by the flux balance a march ends when mean flow and turbulence have b
   CHECK(other.judge(state(1e-3, 1.0), 0.0) == Verdict::converged);
 }
 
+TEST_CASE("the drop of a start at rest counts from what was judged before it, alone", "[flow][fast]") {
+  const auto steps_to_end = [](bool alone, double judged) {
+    March march({.drop = 1e-3, .by_balance = true, .matrix_free_below = 0.0});
+    march.judge_only();
+    march.begin_step();
+    march.judge(of(judged), 0.0);
+    march.begin_after_judging(alone);
+    double residual = 128.0;
+    while (march.judge(of(residual), 0.0) == Verdict::go_on) march.updated(1.0, 5, 0.1), residual *= 0.5;
+    return march.state().steps - 1;
+  };
+  CHECK(steps_to_end(false, 1.0) == 10);
+  CHECK(steps_to_end(true, 1.0) == 17);
+  CHECK(steps_to_end(true, 0.0) == 10);  // a stream that nothing disturbs is no start to count from
+}
+
 TEST_CASE("a balance that is round-off from the start has converged", "[flow][fast]") {
   March march({.drop = 1e-6, .by_balance = true});
   march.begin_step();
