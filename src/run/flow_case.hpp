@@ -49,13 +49,18 @@ class FlowCase {
   aero::FlowSnapshot snapshot() const { return solver_->restart().snapshot(); }
   void return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s);
 
-  /// How a steady march that is no rotor's begins and steps, in the order in which they are tried.
-  enum class Start : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time };
+  /// How a steady march that is no rotor's begins and steps; tried in this order, but for physical_pseudo_time, which is last.
+  /// Files have their numbers. first_order: without reconstruction, until that has come some way; after_first_order: from there.
+  enum class Start : std::uint8_t { coarser_grids, own_grid, physical_pseudo_time, first_order, after_first_order };
   Start start() const { return start_; }
   /// The beginning that a checkpoint names; its state follows.
   void take(Start start);
   /// The march begins again by the next method in that order: returns its name, or nothing where there is none left.
   std::string begin_again(const coupling::Scenario& scenario);
+
+  /// Whether a march of first order has done its part, and the scene's own reconstruction takes over.
+  bool first_order_is_over() const;
+  void raise_order();
 
   /// Grid sequencing of grids that are no rotor's: the flow settles on coarser grids first, the coarsest before the others, their
   /// tiles spread over the ranks like the fine one's. What a drop is counted from stays the residual of the undisturbed flow on

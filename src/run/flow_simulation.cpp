@@ -115,7 +115,13 @@ void FlowSimulation::save(io::CheckpointCopy& copy) {
 Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   aero::FlowSolver& solver = air_.solver();
   const aero::MarchState& march = solver.march();
-  if (air_.steady() && march.spent && solver.judgement().march.stands_still())
+  if (air_.first_order_is_over()) {
+    spdlog::info(
+        "air: after {} pseudo-steps of first order the flux balance is at {:.2g}: the march goes on from there with "
+        "aero.flow.limiter = \"{}\"",
+        march.steps - 1, march.balance_drop(), solver.setting().limiter);
+    air_.raise_order();
+  } else if (air_.steady() && march.spent && solver.judgement().march.stands_still())
     begin_again(fmt::format("the flux balance is at {:.2g} and was not halved in the last {} pseudo-steps, CFL {:.2g}",
                             march.balance_drop(), march.still_for, march.cfl));
   aero::FlowSnapshot before = air_.snapshot();
@@ -150,14 +156,15 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   Advance advance;
   if (!air_.steady()) count_limits(solver.rows());
   if (air_.steady()) {
-    // The last row of a chunk that goes on is judged, and written, by the next.
-    const std::size_t judged = solver.rows().size() - (march.spent ? 1 : 0);
+    // The last row of a chunk that goes on is judged, and written, by the next; a march of first order always goes on.
+    const bool of_first_order = air_.start() == FlowCase::Start::first_order;
+    const std::size_t judged = solver.rows().size() - (march.spent || of_first_order ? 1 : 0);
     // One that has begun again has a row more, of where it began.
     rows_.assign(solver.rows().begin(), solver.rows().begin() + std::ptrdiff_t(std::min(std::int64_t(judged), left)));
     count_limits(rows_);
     last_rows_.insert(last_rows_.end(), rows_.begin(), rows_.end());
     while (last_rows_.size() > averaged(last)) last_rows_.pop_front();
-    if (march.verdict == aero::Verdict::converged && !march.spent)
+    if (march.verdict == aero::Verdict::converged && !march.spent && !of_first_order)
       advance.settled = fmt::format("{}; flux balance at {:.2g}, density residual at {:.2g} of the start", march.why,
                                     march.balance_drop(), march.density_drop());
     if (!advance.settled.empty())
@@ -184,11 +191,14 @@ void FlowSimulation::count_limits(std::span<const aero::PseudoRow> rows) {
 
 /// Of the updates so far, with the place of the worst cells; empty where no cell had a limit. Collective.
 std::string FlowSimulation::limits() const {
-  if (limits_.shortened == 0 && limits_.clipped == 0) return {};
-  return fmt::format(
-      "{} pseudo-steps were shortened, as up to {} cells would have changed too much; in {} turbulence's update was, in up to {} "
-      "cells, to keep it above its bound; most: {}",
-      limits_.shortened, limits_.most_limited, limits_.clipped, limits_.most_clipped, air_.solver().limited_cells(world_.comm));
+  std::string text;
+  if (limits_.shortened > 0)
+    text = fmt::format("{} pseudo-steps were shortened, as up to {} cells would have changed too much; ", limits_.shortened,
+                       limits_.most_limited);
+  if (limits_.clipped > 0)
+    text += fmt::format("in {} turbulence's update was kept above its bound, in up to {} cells; ", limits_.clipped,
+                        limits_.most_clipped);
+  return text.empty() ? text : text + "most was " + air_.solver().limited_cells(world_.comm);
 }
 
 /// Of a steady march that comes to nothing, for this reason; false where there is no other way to begin it.
@@ -222,6 +232,10 @@ std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
 std::string FlowSimulation::failure_at_end() const {
   const aero::FlowOptions& o = *scenario_.aero.flow;
   if (!air_.steady() || o.drop <= 0.0) {
+    if (air_.start() == FlowCase::Start::first_order)
+      return "aero: the pseudo-steps of the scene are spent while the march was of first order, which is no answer; --restart "
+             "with "
+             "a larger time.end_s goes on";
     const std::string walls = unresolved_walls(air_.solver(), scenario_, world_);
     return walls.empty() ? walls : "aero: " + walls;
   }

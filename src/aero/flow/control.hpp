@@ -111,11 +111,13 @@ class March {
   /// The next run judges the state it finds and makes no step; of a march that has begun it changes nothing else ...
   void judge_only() { judging_only_ = true; }
   /// ... and the one after it begins anew with another state, but what its residual was then counts as the start of its drop:
-  /// where it is more than that of the new state, or `alone`, whatever that has. An impulsive start's may be a hundred times as
-  /// large, and the same drop from it ends a flow that has not settled.
+  /// where it is more than that of the new state, or `alone`, whatever that has. An impulsive start's may be thousands of times
+  /// as large, and the same drop from it ends a flow that has not settled.
   void begin_after_judging(bool alone = false);
   /// Whether a steady march that is to end by its flux balance will not: it stands still, or takes steps of no length.
   bool stands_still() const;
+  /// What the march has begun with is the least that its drop counts from, however it begins again.
+  void keep_start() { reference_ = s_.first; }
   /// From another state, or by another pseudo-time: the steps made so far still count.
   void begin_again();
   /// All that decisions follow from, for a restart of a steady march.

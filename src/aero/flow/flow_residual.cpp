@@ -38,9 +38,8 @@ FlowResidual::FlowResidual(const FlowSetting& s, const ModelSweeps& model, const
   convective_.gas = viscous_.gas = boundary_.gas = s.gas;
   const double rho = gas::density(s.gas, s.stream);
   if (s.smooth > 0.0) convective_.smooth = gas::smoothness(s.gas, rho, s.speed, 0.0, s.smooth);
-  convective_.reconstruct = reconstructions(s.limiter);
+  use_limiter(s.limiter);
   convective_.flux = row_flux(s.flux);
-  convective_.law_slope = s.limiter == "first_order" ? 0.0 : 0.5;
   convective_.upwinding = s.upwinding;
   convective_.first_order_model = s.first_order_model;
   viscous_.active = s.viscous;
@@ -61,6 +60,11 @@ FlowResidual::FlowResidual(const FlowSetting& s, const ModelSweeps& model, const
   require_steady_in_frame(s);
   boundary_.turning = true;
   for (std::size_t c = 0; c < 3; ++c) omega_[c] = s.frame_omega[Eigen::Index(c)];
+}
+
+void FlowResidual::use_limiter(std::string_view limiter) {
+  convective_.reconstruct = reconstructions(limiter);
+  convective_.law_slope = limiter == "first_order" ? 0.0 : 0.5;
 }
 
 void FlowResidual::begin_step() { boundary_.weights = time_.weights; }

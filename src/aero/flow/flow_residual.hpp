@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "src/aero/flow/boundary.hpp"
@@ -43,6 +44,8 @@ class FlowResidual {
   const BoundarySetting& boundary() const { return boundary_; }
   const ViscousSetting& viscous() const { return viscous_; }
   bool has_friction() const { return viscous_.active; }
+  /// As FlowSolver::use_limiter.
+  void use_limiter(std::string_view limiter);
   /// Values on the walls of a tile.
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 

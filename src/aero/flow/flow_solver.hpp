@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/graph/graph.hpp"
@@ -51,6 +52,9 @@ class FlowSolver {
 
   /// From here on waves run at their own speeds in the pseudo-time, as without low-Mach preconditioning; far field and flow stay.
   void use_physical_pseudo_time() { system_.use_physical_pseudo_time(); }
+  /// Reconstruction from here on, by a name of FlowSetting::limiter: that of the setting, or first order to get over a hard
+  /// start.
+  void use_limiter(std::string_view limiter) { residual_.use_limiter(limiter); }
   /// In place of the one the setting names; before record().
   void use(std::unique_ptr<Preconditioner> preconditioner) { system_.use(std::move(preconditioner)); }
   /// The undisturbed wind where it changes in time: before each physical step. Far sides take it, and what makes it change
