@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace spindrift::runtime {
@@ -208,19 +209,24 @@ Context Worker::context(const Slot& slot) const {
 }
 
 void Worker::record(std::uint32_t slot, const Context& where, Activity activity, std::int64_t begin, std::int64_t end,
-                    std::uint32_t bytes) {
-  records.add({begin, end, slot, where.replay, where.iteration, bytes, std::uint16_t(id_), activity});
+                    std::uint32_t bytes, bool needed) {
+  records.add({begin, end, slot, where.replay, where.iteration, bytes, std::uint16_t(id_), activity, needed});
 }
 
-/// Runs the work of a node with clock and record; false if it threw, which cancels the run.
+/// Runs the work of a node with clock and record; false if it threw, which cancels the run. Work that returns false was not
+/// needed.
 template <class Body>
 bool Worker::run(std::uint32_t slot, Body&& body) {
   Slot& s = slots_[slot];
   const Context where = context(s);
+  bool needed = true;
   inside.store(slot, std::memory_order_relaxed);
   const std::int64_t begin = Clock::now_ns();
   try {
-    body(where);
+    if constexpr (std::is_same_v<std::invoke_result_t<Body&, const Context&>, bool>)
+      needed = body(where);
+    else
+      body(where);
   } catch (const std::exception& e) {
     team_.fail({team_.graph.recorded().comm.rank(), false, team_.graph.nodes()[slot].label, e.what()});
     return false;
@@ -234,7 +240,7 @@ bool Worker::run(std::uint32_t slot, Body&& body) {
   times.task_ns += end - begin;
   ++times.tasks;
   if (!s.placed) s.home = std::uint16_t(id_);
-  if (team_.recording) record(slot, where, Activity::task, begin, end, 0);
+  if (team_.recording) record(slot, where, Activity::task, begin, end, 0, needed);
   poll_if_due(end, false);
   return true;
 }
@@ -242,7 +248,7 @@ bool Worker::run(std::uint32_t slot, Body&& body) {
 /// A collective call that is not needed this time takes no time.
 void Worker::skip(std::uint32_t slot) {
   const std::int64_t now = Clock::now_ns();
-  if (team_.recording) record(slot, context(slots_[slot]), Activity::task, now, now, 0);
+  if (team_.recording) record(slot, context(slots_[slot]), Activity::task, now, now, 0, false);
   complete(slot);
 }
 
@@ -260,7 +266,9 @@ void Worker::fire(std::uint32_t slot) {
       return enter(s.payload, program_.loops[s.payload].min);
     case Action::reduce_here:
       if (run(slot, [&](const Context&) {
-            if (graph.reductions[s.payload]->active()) graph.reductions[s.payload]->finish();
+            const bool needed = graph.reductions[s.payload]->active();
+            if (needed) graph.reductions[s.payload]->finish();
+            return needed;
           }))
         complete(slot);
       return;
@@ -326,7 +334,9 @@ void Worker::complete_message(const Messages::Completion& completion) {
   const std::int64_t end = Clock::now_ns();
   s.cost_ns += end - completion.posted_ns;
   graph.message_bytes[completion.node] += completion.bytes;
-  if (team_.recording) record(completion.node, context(s), activity_of(kind), completion.posted_ns, end, completion.bytes);
+  graph.messages_made[completion.node] += completion.active;
+  if (team_.recording)
+    record(completion.node, context(s), activity_of(kind), completion.posted_ns, end, completion.bytes, completion.active);
   complete(completion.node);
 }
 

@@ -81,7 +81,7 @@ class alignas(64) Worker {
   void back_off(std::int64_t waited_ns);
   Context context(const Slot& slot) const;
   void record(std::uint32_t slot, const Context& where, Activity activity, std::int64_t begin, std::int64_t end,
-              std::uint32_t bytes);
+              std::uint32_t bytes, bool needed = true);
   std::uint32_t random();
 
   Team& team_;

@@ -32,7 +32,7 @@ std::uint32_t new_node(Graph::Recorded& g, NodeKind kind, std::string label, std
   const auto first = std::uint32_t(g.touched.size());
   g.nodes.push_back({std::move(label), kind, g.open, first, first, -1});
   g.payload.push_back(std::uint32_t(payload));
-  g.message_bytes.push_back(0);
+  g.message_bytes.push_back(0), g.messages_made.push_back(0);
   return std::uint32_t(g.nodes.size() - 1);
 }
 

@@ -35,6 +35,7 @@ struct Graph::Recorded {
   std::vector<std::uint32_t> until_of;            ///< by index of `limits`: the until node or no_node
 
   std::vector<std::uint64_t> message_bytes;  ///< by node: sent or received so far
+  std::vector<std::uint32_t> messages_made;  ///< by node: in so many messages
 
   std::vector<float> place_of;  ///< by datum
   // For recordings (sizes.hpp): bytes of data, and of the parts that single nodes read; where nothing was said, none.

@@ -93,6 +93,12 @@ class BulkSynchronous {
       return body(origin(rank, first.node), entry < entries.size() ? entries[entry] : min, min);
     }
     if (phase.kind == NodeKind::send) return messages(phase);
+    const auto needed = std::ranges::find_if(phase.members, [&](const Member& m) { return !skips(m); });
+    if (ranks_.size() > 1 && needed == phase.members.end()) {  // nobody waits for anybody
+      for (const Member& m : phase.members) ++done_[std::size_t(m.rank)][m.node];
+      return;
+    }
+    const double bytes = phase.kind == NodeKind::reduce && needed != phase.members.end() ? double(node(*needed).bytes) : 0.0;
     const int ranks = ranks_in_all(cluster_, int(ranks_.size()));
     double longest = 0.0;
     const double most = phase.kind == NodeKind::collective ? least_s(phase) : std::numeric_limits<double>::infinity();
@@ -104,16 +110,19 @@ class BulkSynchronous {
       longest = std::max(longest, first);
     }
     if (phase.kind == NodeKind::reduce) ++out_.reductions;
-    const double bytes = phase.kind == NodeKind::reduce ? double(node(phase.members.front()).bytes) : 0.0;
     out_.wall_s += longest + all_to_all_s(cluster_, ranks, bytes);
   }
 
   /// Of a collective call, the time on the rank that waited least for the others in it.
   double least_s(const Phase& phase) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const Member& m : phase.members) least = std::min(least, recorded_s(m, done_[std::size_t(m.rank)][m.node]));
+    for (const Member& m : phase.members)
+      if (!skips(m)) least = std::min(least, recorded_s(m, done_[std::size_t(m.rank)][m.node]));
     return least;
   }
+
+  /// Whether its next execution was not needed.
+  bool skips(const Member& m) const { return ranks_[std::size_t(m.rank)].run.skips(m.node, done_[std::size_t(m.rank)][m.node]); }
 
   double recorded_s(const Member& m, std::uint32_t execution) const {
     const auto& ns = ranks_[std::size_t(m.rank)].run.ns[m.node];
@@ -135,7 +144,9 @@ class BulkSynchronous {
     double latency = 0.0;
     for (const Member& m : phase.members) {
       const NodeRecord& at = node(m);
-      if (at.kind != NodeKind::send) continue;
+      const bool skipped = skips(m);
+      ++done_[std::size_t(m.rank)][m.node];
+      if (at.kind != NodeKind::send || skipped) continue;
       const Wire& wire =
           cluster_.node_of(number(m.rank)) == cluster_.node_of(number(at.peer)) ? cluster_.within : cluster_.between;
       latency = std::max(latency, wire.latency_s);

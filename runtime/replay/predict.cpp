@@ -244,7 +244,9 @@ Recording typical(const Recording& recording) {
       std::vector<const RunRecord*> alike;
       for (const WindowRecord& window : recording.windows) {
         const auto runs = runs_in(recording.ranks[std::size_t(rank.rank)], window.number);
-        if (r < runs.size() && runs[r]->graph == run.graph && runs[r]->iterations == run.iterations) alike.push_back(runs[r]);
+        if (r < runs.size() && runs[r]->graph == run.graph && runs[r]->iterations == run.iterations &&
+            runs[r]->skipped == run.skipped)
+          alike.push_back(runs[r]);
       }
       double task = 0.0;
       for (std::size_t n = 0; n < run.ns.size(); ++n)

@@ -16,7 +16,7 @@ Graph rebuilt(const GraphRecord& record, int ranks) {
     for (const UseRecord& use : from.uses) g.touched.push_back({use.datum, use.how});
     const auto n = std::uint32_t(g.nodes.size());
     g.nodes.push_back({from.label, from.kind, from.loop, first, std::uint32_t(g.touched.size()), from.place});
-    g.message_bytes.push_back(0);
+    g.message_bytes.push_back(0), g.messages_made.push_back(0);
     switch (from.kind) {
       case NodeKind::collective:
         g.takes_turns = ranks > 1;

@@ -36,6 +36,11 @@ void count_iterations(const Team& team, const std::vector<std::vector<const Reco
 
 }  // namespace
 
+bool RunRecord::skips(std::uint32_t node, std::size_t execution) const {
+  const auto of_node = skipped.find(node);
+  return of_node != skipped.end() && std::ranges::binary_search(of_node->second, std::uint32_t(execution));
+}
+
 std::uint64_t GraphRecord::bytes(const Edge& edge) const {
   std::uint64_t sum = 0;
   for (const UseRecord& read : nodes[edge.to].uses) {
@@ -69,7 +74,7 @@ GraphRecord graph_record(const Team& team) {
     if (node.kind == NodeKind::loop) to.limits = g.limits[at];
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive) to.peer = g.messages[at].peer, to.tag = g.messages[at].tag;
     if (node.kind == NodeKind::reduce) to.bytes = g.reductions[at]->bytes();
-    if (const std::uint32_t runs = team.program.slots[n].step; to.peer >= 0 && runs > 0) to.bytes = g.message_bytes[n] / runs;
+    if (const std::uint32_t made = g.messages_made[n]; to.peer >= 0 && made > 0) to.bytes = g.message_bytes[n] / made;
   }
   return out;
 }
@@ -97,7 +102,10 @@ void fill_runs(const Team& team, std::vector<std::uint32_t>& first_replay, std::
     for (std::size_t n = 0; n < nodes; ++n) {
       std::ranges::sort(of_node[n], {}, &Record::begin_ns);
       runs[r].ns[n].reserve(of_node[n].size());
-      for (const Record* record : of_node[n]) runs[r].ns[n].push_back(record->end_ns - record->begin_ns);
+      for (const Record* record : of_node[n]) {
+        if (!record->needed) runs[r].skipped[std::uint32_t(n)].push_back(std::uint32_t(runs[r].ns[n].size()));
+        runs[r].ns[n].push_back(record->end_ns - record->begin_ns);
+      }
     }
     count_iterations(team, of_node, runs[r]);
   }

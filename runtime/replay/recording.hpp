@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,10 @@ struct RunRecord {
   std::int64_t task_ns = 0, idle_ns = 0, poll_ns = 0, overhead_ns = 0;  ///< of all threads together
   std::vector<std::vector<std::int64_t>> ns;           ///< [node][execution]; of messages: from posting to completion
   std::vector<std::vector<std::uint32_t>> iterations;  ///< [node][entry] of loops
+  /// By node, where there are any: executions, rising, in which a reduction, message or collective call was not needed (its
+  /// `active` said no), so that nothing was sent.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> skipped = {};
+  bool skips(std::uint32_t node, std::size_t execution) const;
 };
 
 struct RankRecording {

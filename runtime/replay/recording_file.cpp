@@ -115,7 +115,10 @@ void put_run(const RankRecording& rank, std::size_t r, const Put& put) {
   head.pop_back();
   put(head);
   put_lists("iterations", run.iterations, put), put_lists("ns", run.ns, put);
-  put("}\n");
+  put(",\"skipped\":[");
+  for (const auto& [node, executions] : run.skipped)
+    put((node == run.skipped.begin()->first ? "" : ",") + Json{node, executions}.dump());
+  put("]}\n");
 }
 
 /// The lines of a rank in small pieces: all together they may be larger than what they are of.
@@ -171,9 +174,10 @@ std::size_t count_in(const Json& value, const char* what, std::size_t file_bytes
 void read_header(const Json& line, Recording& to, std::size_t file_bytes) {
   if (!line.is_object() || line.value("format", "") != format)
     throw std::runtime_error("is no recording: the first line lacks \"format\": \"spindrift recording\"");
-  if (const int version = line.at("version"); version != recording_version)
-    throw std::runtime_error("has version " + std::to_string(version) + " of the format; this program reads version " +
-                             std::to_string(recording_version) + ": record again");
+  if (const int version = line.at("version"); version < oldest_recording_version || version > recording_version)
+    throw std::runtime_error("has version " + std::to_string(version) + " of the format; this program reads versions " +
+                             std::to_string(oldest_recording_version) + " to " + std::to_string(recording_version) +
+                             ": record again");
   to.scene = line.at("scene"), to.program = line.at("program"), to.threads = line.at("threads");
   for (const Json& window : line.at("windows")) to.windows.push_back({window.at("number"), window.at("wall_ns")});
   to.ranks.resize(count_in(line.at("ranks"), "ranks", file_bytes));
@@ -202,6 +206,24 @@ void read_node(const Json& line, GraphRecord& graph) {
   }
 }
 
+/// Executions that were not needed. Without the list (version 1): collective calls that took no time.
+void read_skipped(const Json& line, const GraphRecord& graph, RunRecord& run) {
+  if (!line.contains("skipped")) {
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n)
+      for (std::uint32_t e = 0; e < run.ns[n].size() && graph.nodes[n].kind == NodeKind::collective; ++e)
+        if (run.ns[n][e] == 0) run.skipped[n].push_back(e);
+    return;
+  }
+  for (const Json& of_node : line.at("skipped")) {
+    const std::uint32_t n = of_node.at(0);
+    if (n >= run.ns.size()) throw std::runtime_error("skips node " + std::to_string(n) + ", which the graph lacks");
+    std::vector<std::uint32_t>& executions = run.skipped[n];
+    of_node.at(1).get_to(executions);
+    if (!std::ranges::is_sorted(executions) || (!executions.empty() && executions.back() >= run.ns[n].size()))
+      throw std::runtime_error("skips executions of node " + std::to_string(n) + " that it lacks or that do not rise");
+  }
+}
+
 void read_line(const Json& line, Recording& to, std::size_t file_bytes) {
   RankRecording& rank = to.ranks.at(line.at("rank").get<std::size_t>());
   const std::size_t g = count_in(line.at("graph"), "graphs", file_bytes);
@@ -221,6 +243,7 @@ void read_line(const Json& line, Recording& to, std::size_t file_bytes) {
     if (run.ns.size() != nodes || run.iterations.size() != nodes)
       throw std::runtime_error("has times of " + std::to_string(run.ns.size()) + " nodes; its graph has " +
                                std::to_string(nodes));
+    read_skipped(line, rank.graphs[g], run);
   }
 }
 

@@ -10,7 +10,8 @@
 
 namespace spindrift::runtime {
 
-inline constexpr int recording_version = 1;
+/// Version 1 did not say which executions were skipped: what it has are collective calls that took no time.
+inline constexpr int recording_version = 2, oldest_recording_version = 1;
 
 /// Rank 0 writes what all ranks have: `own.ranks` holds the rank's own part alone; title, threads and windows are those of rank
 /// 0. One rank's text at a time is in memory. Collective; throws std::runtime_error on rank 0 where the file cannot be written.

@@ -200,6 +200,8 @@ class Cutter {
         if (writes_to(use) && to.place < 0) to.place = rank.graph.data[use.datum].place;
       }
       rank.run.ns.back() = run_.ns[n];
+      if (const auto skipped = run_.skipped.find(n); skipped != run_.skipped.end())
+        rank.run.skipped[std::uint32_t(rank.graph.nodes.size() - 1)] = skipped->second;
     }
     if (node.kind == NodeKind::task)
       repeated_ns_ += double(ranks.size() - 1) * std::accumulate(run_.ns[n].begin(), run_.ns[n].end(), 0.0);
@@ -310,6 +312,7 @@ RankRun joined(const RankRun& a, const RankRun& b) {
   for (const Edge& edge : b.graph.edges) both.graph.edges.push_back({edge.from + nodes, edge.to + nodes, edge.distance});
   both.run.ns.insert(both.run.ns.end(), b.run.ns.begin(), b.run.ns.end());
   both.run.iterations.insert(both.run.iterations.end(), b.run.iterations.begin(), b.run.iterations.end());
+  for (const auto& [node, executions] : b.run.skipped) both.run.skipped[node + nodes] = executions;
   both.run.wall_ns += b.run.wall_ns, both.run.task_ns += b.run.task_ns, both.run.overhead_ns += b.run.overhead_ns;
   return both;
 }

@@ -40,7 +40,7 @@ RankRun part_of(const GraphRecord& graph, const RunRecord& run, Wanted&& wanted)
   RankRun part;
   part.graph.data = graph.data;
   part.run = run;
-  part.run.ns.clear(), part.run.iterations.clear();
+  part.run.ns.clear(), part.run.iterations.clear(), part.run.skipped.clear();
   std::vector<std::uint32_t> as(graph.nodes.size(), no_node);
   for (std::uint32_t n = 0; n < graph.nodes.size(); ++n) {
     const std::string_view label = graph.nodes[n].label;
@@ -50,6 +50,7 @@ RankRun part_of(const GraphRecord& graph, const RunRecord& run, Wanted&& wanted)
     NodeRecord& node = part.graph.nodes.back();
     if (node.loop != no_node) node.loop = as[node.loop];
     part.run.ns.push_back(run.ns[n]), part.run.iterations.push_back(run.iterations[n]);
+    if (const auto skipped = run.skipped.find(n); skipped != run.skipped.end()) part.run.skipped[as[n]] = skipped->second;
   }
   for (const Edge& edge : graph.edges)
     if (as[edge.from] != no_node && as[edge.to] != no_node)

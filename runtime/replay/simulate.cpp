@@ -418,6 +418,7 @@ class Simulation {
   void post(int r, std::uint32_t slot, Path path) {
     Rank& rank = *ranks_[std::size_t(r)];
     const NodeRecord& node = rank.of.graph.nodes[slot];
+    if (rank.of.run.skips(slot, rank.program.slots[slot].step)) return complete(r, slot, path);  // on all ranks alike
     if (node.kind == NodeKind::reduce) {
       const std::string module(module_of(node.label));
       if (meet({rank.of.group, module, rank.reduced[module]++}, r, -1, slot, path, 0.0, double(node.bytes))) ++out_.reductions;
@@ -425,7 +426,6 @@ class Simulation {
     }
     if (node.kind == NodeKind::collective) {
       const std::string ready = std::string(module_of(node.label)) + " is ready";
-      if (recorded_s(rank, slot, rank.program.slots[slot].step) == 0.0) return complete(r, slot, path);  // was not needed
       // Waits for the last rank, then for the announcement.
       const double announcement_s = all_to_all_s(cluster_, ranks_in_all(cluster_, group_size_.at(rank.of.group)), 0.0);
       meet({rank.of.group, ready, rank.ready_calls[ready]++}, r, -1, slot, path, announcement_s, 0.0);

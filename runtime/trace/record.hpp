@@ -24,6 +24,7 @@ struct Record {
   std::uint32_t bytes;            ///< of a message; 0 for others
   std::uint16_t thread;           ///< that ran the task, or saw the message complete
   Activity activity;
+  bool needed = true;  ///< false: a message, reduction or collective call whose `active` said no
 };
 inline constexpr std::uint32_t no_task = ~0u;
 

@@ -155,7 +155,7 @@ TEST_CASE("lines say urgency, mean and spread over the windows, and bytes of edg
     if (object.contains("label")) by_label[object["label"]] = object;
   }
   std::remove(path.c_str());
-  CHECK(header["version"] == 1);
+  CHECK(header["version"] == 2);
   const json& start = by_label.at("aero/start");
   CHECK(start["runs"] == 4);
   CHECK(start["mean_ns"] == 200.0);
@@ -167,6 +167,52 @@ TEST_CASE("lines say urgency, mean and spread over the windows, and bytes of edg
   CHECK(by_label.at("sea/inner/t")["mean_ns"] == 0.0);
   // aero/end waits for aero/start, of which it reads 640 bytes, and for the loop.
   CHECK(by_label.at("aero/end")["after"] == json::parse("[[0,0,640],[1,0,0]]"));
+}
+
+TEST_CASE("a recording says which reductions and calls were not needed", "[replay][fast]") {
+  int iteration = 0;
+  double partial = 1.0, sum = 0.0;
+  const auto every_third = [&iteration] { return iteration % 3 == 0; };
+  Graph g;
+  const Datum count = g.datum(), total = g.datum(), made = g.datum();
+  g.repeat("a/loop", 7, [&] {
+    g.task("a/count", {updates(count)}, [&iteration] { ++iteration; });
+    g.reduce("a/sum", {reads(count), writes(total)}, {.partials = {&partial, 1}, .result = {&sum, 1}, .active = every_third});
+    g.collective(
+        "a/call", {reads(count), writes(made)}, [](MPI_Comm) {}, every_third);
+    g.reduce("a/always", {reads(count), reads(total)}, {.partials = {&partial, 1}, .result = {&sum, 1}});
+  });
+  Ledger ledger;
+  Executor executor(std::move(g), {.threads = 1, .records = 1000});
+  ledger.begin_window(1, Ledger::Keep::runs);
+  executor.run();
+  ledger.end_window();
+  Recording recording{.scene = "s", .program = "p", .windows = ledger.windows()};
+  recording.ranks.push_back(ledger.recording(0));
+  const std::string path = file("skipped");
+  write_recording(recording, path, MPI_COMM_SELF);
+  const Recording back = read_recording(path);
+  const std::map<std::uint32_t, std::vector<std::uint32_t>> expected{{2, {0, 1, 3, 4, 6}}, {3, {0, 1, 3, 4, 6}}};
+  REQUIRE(recording.ranks[0].runs.size() == 1);
+  CHECK(recording.ranks[0].runs[0].skipped == expected);
+  CHECK(back.ranks[0].runs.at(0).skipped == expected);
+  CHECK(back.ranks[0].runs[0].skips(2, 4));
+  CHECK_FALSE(back.ranks[0].runs[0].skips(2, 5));
+  CHECK_FALSE(back.ranks[0].runs[0].skips(4, 0));
+
+  // A file of version 1 has no list: calls that took no time were skipped.
+  std::ifstream in(path);
+  std::string old;
+  for (std::string line; std::getline(in, line);) {
+    json object = json::parse(line);
+    if (object.contains("format")) object["version"] = 1;
+    object.erase("skipped");
+    old += object.dump() + '\n';
+  }
+  std::ofstream(path) << old;
+  const std::map<std::uint32_t, std::vector<std::uint32_t>> calls{{3, {0, 1, 3, 4, 6}}};
+  CHECK(read_recording(path).ranks[0].runs.at(0).skipped == calls);
+  std::remove(path.c_str());
 }
 
 TEST_CASE("what is no recording is refused by file and line", "[replay][fast]") {
@@ -186,6 +232,13 @@ TEST_CASE("what is no recording is refused by file and line", "[replay][fast]") 
       header + "\n" + R"({"rank":0,"graph":0,"nodes":1,"data":[]})" + "\n" +
           R"({"rank":0,"graph":0,"node":0,"label":"a","kind":"task","loop":null,"place":null,"uses":[[4,"read"]],"after":[]})",
       "line 3: uses datum 4");
+  const std::string graph = header + "\n" + R"({"rank":0,"graph":0,"nodes":1,"data":[]})" + "\n";
+  const std::string run =
+      R"({"rank":0,"run":0,"window":1,"graph":0,"replays":1,"begin_ns":0,"wall_ns":0,"task_ns":0,"idle_ns":0,)"
+      R"("poll_ns":0,"overhead_ns":0,"iterations":[[]],"ns":[[5,5]],"skipped":)";
+  refused(graph + run + "[[1,[0]]]}", "line 3: skips node 1");
+  refused(graph + run + "[[0,[2]]]}", "line 3: skips executions of node 0");
+  refused(graph + run + "[[0,[1,0]]]}", "line 3: skips executions of node 0");
   // Numbers that no integer holds, and counts that the file is too short for.
   refused(R"({"format":"spindrift recording","version":1e36})", "line 1: has the number 1e+36");
   refused(
@@ -206,9 +259,14 @@ TEST_CASE("a recording of two ranks has both, with messages", "[replay][fast][mp
   Graph g(MPI_COMM_WORLD);
   const Datum out = g.datum(), in = g.datum();
   std::vector<double> sent(50, rank), got(50);
-  g.task("aero/pack", {writes(out)}, [] {});
-  g.send("aero/send", {reads(out)}, {1 - rank, 7, buffer_of(std::span(sent))});
-  g.receive("aero/receive", {writes(in)}, {1 - rank, 7, buffer_of(std::span(got))});
+  int count = 0;
+  double partial = 1.0, sum = 0.0;
+  const auto second = [&count] { return count % 2 == 0; };
+  const Datum total = g.datum();
+  g.task("aero/pack", {writes(out)}, [&count] { ++count; });
+  g.send("aero/send", {reads(out)}, {1 - rank, 7, buffer_of(std::span(sent)), {}, second});
+  g.receive("aero/receive", {reads(out), writes(in)}, {1 - rank, 7, buffer_of(std::span(got)), {}, second});
+  g.reduce("aero/sum", {reads(out), writes(total)}, {.partials = {&partial, 1}, .result = {&sum, 1}, .active = second});
   Executor executor(std::move(g), {.threads = 1, .records = 1000});
   for (int window = 1; window <= 2; ++window) {
     ledger.begin_window(window, Ledger::Keep::runs);
@@ -229,7 +287,11 @@ TEST_CASE("a recording of two ranks has both, with messages", "[replay][fast][mp
       CHECK(receive.kind == NodeKind::receive);
       CHECK(receive.peer == 1 - r);
       CHECK(receive.tag == 7);
-      CHECK(receive.bytes == 400);
+      CHECK(receive.bytes == 400);  // of those that were made: the second window's
+      for (const std::uint32_t n : {1u, 2u, 3u}) {
+        CHECK(all.ranks[std::size_t(r)].runs[0].skips(n, 0));
+        CHECK_FALSE(all.ranks[std::size_t(r)].runs[1].skips(n, 0));
+      }
     }
   }
 }

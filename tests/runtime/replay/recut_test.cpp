@@ -1,11 +1,13 @@
 // A graph of one rank cut for several: what runs where, and what passes between. SPDX-License-Identifier: Apache-2.0
 #include "runtime/replay/recut.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
 #include "runtime/graph/sizes.hpp"
+#include "runtime/replay/copies.hpp"
 #include "tests/runtime/replay/graphs.hpp"
 
 using namespace spindrift::runtime;
@@ -81,6 +83,20 @@ TEST_CASE("every tile's tasks run on one rank, what is of no tile on all, and bo
     CHECK(s.busy_s == Approx(sum_s(whole)));
     CHECK(s.wall_s == Approx(sum_s(whole) / ranks));
   }
+}
+
+TEST_CASE("what was skipped stays so on every rank, in every part and copy", "[replay][fast]") {
+  RankRun whole = row(5);
+  const auto total =
+      std::uint32_t(std::ranges::find(whole.graph.nodes, "sea/total", &NodeRecord::label) - whole.graph.nodes.begin());
+  whole.run.skipped[total] = {0, 1, 2, 4};
+  const Recut cut = recut(whole.graph, whole.run, 4);
+  CHECK(simulate(cut.ranks, ideal(4, 1)).reductions == 1);
+  const RankRun other = row(3);
+  const RankRun both = joined(other, whole), part = part_of(both.graph, both.run, [](std::string_view) { return true; });
+  CHECK(simulate(recut(part.graph, part.run, 2).ranks, ideal(2, 1)).reductions == 3 + 1);
+  const RankRun three = copies(whole.graph, whole.run, 3, 1.0);
+  CHECK(simulate(recut(three.graph, three.run, 3, 0, 3).ranks, ideal(3, 1)).reductions == 1);
 }
 
 TEST_CASE("latency is felt where nothing is left to hide it", "[replay][fast]") {

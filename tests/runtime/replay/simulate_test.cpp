@@ -187,6 +187,48 @@ TEST_CASE("a reduction and a collective call wait for the last rank", "[replay][
   }
 }
 
+TEST_CASE("a reduction, call or message that was skipped sends nothing and waits for nobody", "[replay][fast]") {
+  for (const NodeKind kind : {NodeKind::reduce, NodeKind::collective, NodeKind::send}) {
+    std::vector<RankRun> ranks;
+    for (int r = 0; r < 2; ++r) {  // five times: work, then what all wait for
+      RankRun run;
+      run.graph.data.resize(1);
+      run.graph.nodes.push_back({.label = "a/loop", .kind = NodeKind::loop, .limits = {5, 5}, .uses = {{0, Access::update}}});
+      run.graph.nodes.push_back({.label = "a/work", .loop = 0, .uses = {{0, Access::update}}});
+      NodeRecord all{.label = "a/all", .kind = kind, .loop = 0, .bytes = 1000, .uses = {{0, Access::update}}};
+      if (kind == NodeKind::send) all.kind = r == 0 ? NodeKind::send : NodeKind::receive, all.peer = 1 - r, all.tag = 1;
+      run.graph.nodes.push_back(all);
+      run.graph.edges = {{1, 2, 0}, {2, 1, 1}, {0, 0, 1}};
+      run.run.ns = {{}, std::vector<std::int64_t>(5, 10'000), std::vector<std::int64_t>(5, 7'000)};
+      run.run.iterations = {{5}, {}, {}};
+      ranks.push_back(std::move(run));
+    }
+    const Cluster cluster{.nodes = 2, .ranks = 2, .threads = 1, .between = {3e-6, 1e9}, .within = {}};
+    const auto check = [&](double made) {
+      const Simulated s = simulate(ranks, cluster), bulk = simulate_bulk_synchronous(ranks, cluster);
+      // 3 us and 1000 bytes; a call: twice for its turn, its 7 us, once until all have done it. Of messages, for which the sender
+      // does not wait, the last one is felt.
+      const double felt = kind == NodeKind::collective ? made * (3 * 3 + 7)
+                          : kind == NodeKind::reduce   ? made * 4
+                          : made > 0                   ? 4
+                                                       : 0;
+      CHECK(s.wall_s == Approx((5 * 10 + felt) * us));
+      CHECK(s.reductions == (kind == NodeKind::reduce ? long(made) : 0));
+      CHECK(s.messages == (kind == NodeKind::send ? long(made) : 0));
+      CHECK(bulk.reductions == s.reductions);
+      CHECK(bulk.messages == s.messages);
+      const double barrier = 3 * us, of_bulk = kind == NodeKind::collective ? 10 * us : 4 * us;  // a barrier after each work
+      CHECK(bulk.wall_s == Approx(5 * (10 * us + barrier) + made * of_bulk));
+    };
+    INFO("kind " << int(kind));
+    check(5);
+    for (RankRun& rank : ranks) rank.run.skipped[2] = {0, 1, 2};
+    check(2);
+    for (RankRun& rank : ranks) rank.run.skipped[2] = {0, 1, 2, 3, 4};
+    check(0);
+  }
+}
+
 TEST_CASE("skew slows some ranks and quickens others, the same in every simulation", "[replay][fast]") {
   Cluster cluster{.ranks = 400};
   CHECK(speed_factor(cluster, 3) == 1.0);
