@@ -74,7 +74,10 @@ void Plan::finish_steps(const StepControl& control, StepChoice step, Work& work)
   for (int n = 0; n < planned; ++n) time += dt;
   steps += planned, work.steps = steps;
   work.evaluations += planned * (step == StepChoice::symplectic ? 2 : 1);
-  left = ends || ended() ? 0.0 : left - dt * planned;
+  if (ends || ended())
+    left = 0.0;
+  else if (!control.choose)  // who chooses steps knows what is left
+    left -= dt * planned;
 }
 
 }  // namespace spindrift::sph

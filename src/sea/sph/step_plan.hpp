@@ -38,7 +38,7 @@ struct StepControl {
 struct Plan {
   double time = 0.0;
   long steps = 0;
-  double left = 0.0;                                    ///< of the window [s]
+  double left = 0.0;                                    ///< of the window [s]; with StepControl::choose above 0 until it ends
   double dt = 0.0;                                      ///< of the steps planned [s]
   int planned = 0;                                      ///< steps until the next check of the limits
   double speed = 0.0, acceleration = 0.0, limit = 0.0;  ///< largest at the last check of the limits, and what they allow [s]

@@ -57,6 +57,17 @@ TEST_CASE("the steps of a window add up to it and stay below the limit", "[sph][
   }
 }
 
+TEST_CASE("a window whose steps are chosen from outside is as long as who chooses them says", "[sph][step_plan][fast]") {
+  Plan plan;
+  Work work;
+  plan.left = 1.0;
+  int asked = 0;
+  const StepControl control{.choose = [&](double) { return StepControl::Choice{0.3, ++asked == 10}; }};
+  while (plan.left > 0.0) plan.choose_steps(control), plan.finish_steps(control, StepChoice::symplectic, work);
+  CHECK(asked == 10);
+  CHECK(plan.time == Approx(3.0));
+}
+
 TEST_CASE("steps that cannot be made end the window with a failure that says why", "[sph][step_plan][fast]") {
   Plan plan;
   plan.left = 1.0;
