@@ -21,6 +21,7 @@
 #include "src/run/flow_columns.hpp"
 #include "src/run/flow_simulation.hpp"
 #include "src/scene/value.hpp"
+#include "src/sea/sph/step_plan.hpp"
 
 namespace spindrift::app {
 
@@ -151,7 +152,10 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
 
 double particle_steps(const FloatingSystem& floating, const sea::ParticleCensus& census) {
   const coupling::TimeOptions& time = floating.scenario().time;
-  const double step = std::min({time.step_s.value_or(census.step_s), floating.body_step_limit_s, census.step_s, time.window_s});
+  const bool some_at_a_time = floating.particle_plan()->options.limits_every > 1 && !time.step_s;
+  const double share = some_at_a_time ? sph::share_between_checks : 1.0;
+  const double step =
+      std::min({time.step_s.value_or(share * census.step_s), share * floating.body_step_limit_s, census.step_s, time.window_s});
   return std::ceil(time.window_s / step * (1.0 - 1e-9));
 }
 

@@ -9,6 +9,7 @@
 #include "runtime/trace/clock.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/retries.hpp"
+#include "src/sea/sph/step_plan.hpp"
 
 namespace spindrift::coupling {
 
@@ -20,7 +21,7 @@ std::vector<Motion> at_rest(std::vector<Motion> motions) {
   return motions;
 }
 
-std::int64_t choose_substep(const FloatingSystem& floating, std::int64_t tick, std::int64_t left, double limit) {
+Substeps choose_substeps(const FloatingSystem& floating, std::int64_t tick, std::int64_t left, double limit, int most) {
   const double tick_s = floating.timeline().tick_s(), t = double(tick) * tick_s;
   if (const std::optional<double>& step = floating.scenario().time.step_s) {
     if (*step > limit)
@@ -29,17 +30,24 @@ std::int64_t choose_substep(const FloatingSystem& floating, std::int64_t tick, s
                       "or give a smaller one",
                       t, *step, limit),
           "sea", long(tick), t, limit);
-    return 2;
+    return next_substeps(left, 2, most);
   }
+  if (most > 1) limit *= sph::share_between_checks;
   const std::int64_t ticks = substep_ticks(left, limit / tick_s);
   if (ticks == 0)
     throw NumericalFailure(
         fmt::format("t = {:.6g} s: sea: the stable step fell to {:.3g} s, less than a ten-millionth of the window", t, limit),
         "sea", long(tick), t, limit);
-  return ticks;
+  return next_substeps(left, ticks, most);
 }
 
 }  // namespace
+
+Substeps next_substeps(std::int64_t left, std::int64_t each, int most) {
+  const std::int64_t all = (left + each - 1) / each;
+  if (all > most) return {most, each, each};
+  return {int(all), each, left - each * (all - 1)};
+}
 
 std::int64_t substep_ticks(std::int64_t left, double limit) {
   const std::int64_t half = left / 2, most = std::int64_t(std::min(std::floor(0.5 * limit), 9e15));
@@ -83,19 +91,24 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   void return_to(int slot) override { sea_.return_to(slot); }
 
  private:
-  Step choose(double limit) override {
+  Steps choose(double limit, int most) override {
     // A step that the scene gives stays.
     const double share = floating_.scenario().time.step_s ? 1.0 : share_of_substep(retry_);
-    ticks_ = choose_substep(floating_, state_.tick, end_ - state_.tick, share * std::min(limit, floating_.body_step_limit_s));
-    const Step step{double(ticks_) * floating_.timeline().tick_s(), state_.tick + ticks_ == end_};
-    if (!sea_.moves_solids()) {  // nobody will ask
-      std::vector<Motion> motions;
-      move(false, motions), move(true, motions);
-    }
-    return step;
+    substeps_ =
+        choose_substeps(floating_, state_.tick, end_ - state_.tick, share * std::min(limit, floating_.body_step_limit_s), most);
+    made_ = 0;
+    const double tick_s = floating_.timeline().tick_s();
+    const Steps steps{double(substeps_.each) * tick_s, state_.tick + substeps_.ticks() == end_, substeps_.count,
+                      double(substeps_.last) * tick_s};
+    if (!sea_.moves_solids())  // nobody will ask
+      for (int n = 0; n < substeps_.count; ++n) {
+        std::vector<Motion> motions;
+        move(false, motions), move(true, motions);
+      }
+    return steps;
   }
   double move(bool to_end, std::vector<Motion>& motions) override {
-    const std::int64_t begin = runtime::Clock::now_ns(), ticks = to_end ? ticks_ : ticks_ / 2;
+    const std::int64_t begin = runtime::Clock::now_ns(), ticks = to_end ? substeps_.of(made_) : substeps_.of(made_) / 2;
     const double t = time(state_.tick + ticks);
     next_ = state_;
     if (held_ || state_.motions.empty()) {
@@ -107,7 +120,7 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
       if (!report.ok()) throw floating_.multibody().failure(report, state_, tick_s);
       motions = next_.motions;
     }
-    if (to_end) std::swap(state_, next_), ++steps_;
+    if (to_end) std::swap(state_, next_), ++steps_, ++made_;
     own_ns_ += runtime::Clock::now_ns() - begin;
     return t;
   }
@@ -118,7 +131,9 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
   DriverFunction between_;
   bodies::BodiesState state_, next_;
   std::vector<Motion> held_motions_;
-  std::int64_t end_ = 0, ticks_ = 0;
+  std::int64_t end_ = 0;
+  Substeps substeps_;  ///< until the next check of the sea's limits
+  int made_ = 0;       ///< of these
   bool held_ = false;
   int retry_ = 0;
 };

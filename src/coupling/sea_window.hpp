@@ -27,4 +27,14 @@ void evaluate_particles(FloatingSystem& floating, const bodies::BodiesState& sta
 /// 0 where the limit is below two ticks.
 std::int64_t substep_ticks(std::int64_t left, double limit);
 
+/// Some of the substeps that share out what is left of a window: all of `each` ticks but the last.
+struct Substeps {
+  int count = 1;
+  std::int64_t each = 0, last = 0;  ///< even
+  std::int64_t of(int n) const { return n + 1 < count ? each : last; }
+  std::int64_t ticks() const { return each * (count - 1) + last; }
+};
+/// The next substeps of `each` ticks, at most `most`; the one that ends the window is as long as what is left.
+Substeps next_substeps(std::int64_t left, std::int64_t each, int most);
+
 }  // namespace spindrift::coupling

@@ -128,6 +128,10 @@ const Section<ParticleOptions>& particle_section() {
           .only_if("step", {"verlet"})
           .number("cfl", &ParticleOptions::cfl, "-", "Courant number of the acoustic, force and viscous limits.",
                   above(0.0).up_to(0.6))
+          .integer("limits_every", &ParticleOptions::limits_every, "-",
+                   "Substeps from one check of these limits to the next. On many ranks a check is a reduction that all wait for; "
+                   "between two checks substeps keep to 0.9 of the limits.",
+                   between(1, 20))
           .choice("precision", &ParticleOptions::precision,
                   {{"single", "pairs in float, state in double"}, {"double", "everything in double, about twice the time"}},
                   "Arithmetic of the pairs.")

@@ -45,6 +45,7 @@ struct ParticleOptions {
   double shifting = 0.0;
   sph::StepChoice step = sph::StepChoice::symplectic;
   double cfl = 0.2;
+  int limits_every = 1;  ///< substeps between two checks of the limits
   std::string precision = "single";
   int verlet_join_every = 40;
   std::optional<int> lost_at_most;

@@ -95,9 +95,10 @@ class Sea final : public ParticleSea {
         solids_(sea_, plan, start, tank, tank.paddle ? std::optional(wavemaker_of(plan)) : std::nullopt) {
     for (const DampingZoneOptions& z : plan.damping_zones)
       sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
-    steps_.steps.choose = [this](double limit) {
-      const WindowDriver::Step step = driver_->choose(limit);
-      return sph::StepControl::Choice{step.dt, step.last};
+    steps_.steps.steps_per_check = plan.options.limits_every;
+    steps_.steps.choose = [this](double limit, int most) {
+      const WindowDriver::Steps steps = driver_->choose(limit, most);
+      return sph::StepControl::Choice{steps.dt, steps.last, steps.count, steps.last_dt};
     };
     const auto mine = sph::identities_of(particles_, world.rank, world.size);
     owner_.reserve(mine.last - mine.first);

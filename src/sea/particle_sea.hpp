@@ -114,11 +114,14 @@ struct ParticleState {
 class WindowDriver {
  public:
   virtual ~WindowDriver() = default;
-  struct Step {
-    double dt;  ///< [s], at most `limit`
+  struct Steps {
+    double dt;  ///< of each [s], at most `limit`
     bool last;  ///< of the window
+    int count = 1;
+    double last_dt = dt;  ///< of the last of them [s]
   };
-  virtual Step choose(double limit) = 0;
+  /// At most `most` steps, for which the limit is not looked at again: several keep to sph::share_between_checks of it.
+  virtual Steps choose(double limit, int most) = 0;
   /// The sea's loads() are those of the step's begin, or (to_end, but for Verlet's step) of its middle. Sets where the bodies are
   /// at the middle of the step, or at its end, and returns that time [s].
   virtual double move(bool to_end, std::vector<Motion>& bodies) = 0;

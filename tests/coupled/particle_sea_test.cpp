@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/base/constants.hpp"
+#include "runtime/replay/recording_file.hpp"
 #include "src/coupling/sea_window.hpp"
 #include "src/scene/error.hpp"
 #include "tests/coupled/runs.hpp"
@@ -220,6 +221,72 @@ TEST_CASE("substeps share out what is left of a window and never exceed the limi
   CHECK(substep_ticks(2, 2.0) == 2);
 }
 
+TEST_CASE("substeps checked some at a time share out what is left of a window, the last as long as what is left",
+          "[coupled][sea][fast]") {
+  for (const int most : {1, 4, 7})
+    for (double limit : {7.9, 1000.0, 123456.7}) {
+      const std::int64_t window = limit < 10.0 ? 1000 : 16777216;
+      std::int64_t left = window, steps = 0, checks = 0;
+      for (; left > 0; ++checks) {
+        const Substeps next = next_substeps(left, substep_ticks(left, limit), most);
+        std::int64_t ticks = 0;
+        for (int n = 0; n < next.count; ++n) {
+          if (next.of(n) < 2 || next.of(n) % 2 != 0 || double(next.of(n)) > limit)
+            FAIL("a substep of " << next.of(n) << " ticks");
+          ticks += next.of(n);
+        }
+        CHECK(ticks == next.ticks());
+        left -= ticks, steps += next.count;
+      }
+      CHECK(left == 0);
+      CHECK(steps == std::int64_t(std::ceil(0.5 * double(window) / std::floor(0.5 * limit))));
+      CHECK(checks == (steps + most - 1) / most);
+    }
+  const Substeps fixed = next_substeps(10, 2, 4);
+  CHECK((fixed.count == 4 && fixed.each == 2 && fixed.last == 2));
+}
+
+TEST_CASE("limits checked every four substeps take a quarter of the reductions, and the box falls as it did",
+          "[coupled][sea][fast]") {
+  struct Run {
+    double z_m;
+    long substeps = 0, checks = 0, loads = 0;
+  };
+  const auto run_with = [](int every) {
+    const test::Folder folder("limits");
+    std::vector<std::string> overrides = small_box;
+    overrides.insert(overrides.end(), {"time.end_s=0.12", "sea.particles.limits_every=" + std::to_string(every)});
+    run::RunSettings settings{.quiet = true, .record_graph = (folder.path() / "graph.jsonl").string()};
+    settings.windows = {{1, 3}};  // once released
+    CHECK(test::run_scene(test::input(box), overrides, folder.path(), settings).exit_code == 0);
+    Run run{scene::read_columns((folder.path() / "history.csv").string())["box.z_m"].back()};
+    const runtime::Recording recording = runtime::read_recording(settings.record_graph);
+    const runtime::RankRecording& rank = recording.ranks.at(0);
+    CHECK(rank.runs.size() == 3);
+    for (const runtime::RunRecord& window : rank.runs) {
+      const auto& nodes = rank.graphs.at(window.graph).nodes;
+      for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+        const auto skipped = window.skipped.find(n);
+        const long made = long(window.ns[n].size()) - (skipped == window.skipped.end() ? 0 : long(skipped->second.size()));
+        if (nodes[n].kind != runtime::NodeKind::reduce) continue;
+        if (nodes[n].label == "sea/limits") run.checks += made;
+        if (nodes[n].label == "sea/loads/begin") run.substeps += made;
+        if (nodes[n].label.starts_with("sea/loads/")) run.loads += made;
+      }
+    }
+    return run;
+  };
+  const Run one = run_with(1), four = run_with(4);
+  CHECK(one.checks == one.substeps);
+  CHECK(one.loads == 2 * one.substeps);
+  CHECK(four.loads == 2 * four.substeps);  // none in steps that are not made
+  CHECK(four.checks <= (four.substeps + 3 * 3) / 4);
+  CHECK(four.checks >= four.substeps / 4);
+  CHECK(four.substeps >= one.substeps);
+  CHECK(double(four.substeps) <= 1.15 * double(one.substeps) + 3.0);
+  CHECK(four.z_m == Approx(one.z_m).margin(0.004));  // jittered starts of "every scheme runs": 0.0410 to 0.0439
+}
+
 TEST_CASE("a paddle starts over two periods of its waves where the scene does not say", "[coupled][sea][fast]") {
   const auto growth = [](const std::string& tank, const std::vector<std::string>& overrides) {
     scene::Document document = scene::load(test::input(tank), overrides);
@@ -235,6 +302,8 @@ TEST_CASE("a paddle starts over two periods of its waves where the scene does no
 TEST_CASE("bad seas of particles are refused by key before anything is made", "[coupled][sea][fast]") {
   CHECK_THAT(refusal(dam, {"sea.particles.spacing_m=1.0"}), Contains("sea.particles.spacing_m") && Contains("fewer than 4"));
   CHECK_THAT(refusal(dam, {"sea.tank.x_m=[4.0, 0.0]"}), Contains("sea.tank.x_m"));
+  for (const std::string every : {"0", "21", "1.5"})
+    CHECK_THAT(refusal(dam, {"sea.particles.limits_every=" + every}), Contains("sea.particles.limits_every"));
   CHECK_THAT(refusal(dam, {"sea.probes[0].point_m=[9.0, 0.0, 0.0]"}),
              Contains("sea.probes[0].point_m") && Contains("outside the tank"));
   CHECK_THAT(refusal(dam, {"time.step_s=0.01"}), Contains("time.step_s") && Contains("speed of sound"));

@@ -53,10 +53,10 @@ class Heard final : public sea::WindowDriver {
     bodies_ = &bodies;
     return *this;
   }
-  Step choose(double limit) override {
-    const Step step = bodies_->choose(limit);
-    write(file_, step.dt), write(file_, double(step.last));
-    return step;
+  Steps choose(double limit, int most) override {
+    const Steps steps = bodies_->choose(limit, most);
+    write(file_, steps.dt), write(file_, double(steps.last));
+    return steps;
   }
   double move(bool to_end, std::vector<Motion>& motions) override {
     const double t = bodies_->move(to_end, motions);
@@ -73,7 +73,7 @@ class Heard final : public sea::WindowDriver {
 class Read final : public sea::WindowDriver {
  public:
   explicit Read(std::istream& file) : file_(file) {}
-  Step choose(double limit) override {
+  Steps choose(double limit, int) override {
     const double dt = number_in(file_);
     CHECK(dt <= limit);
     return {dt, number_in(file_) == 1.0};

@@ -57,8 +57,9 @@ void BodyTasks<dim, Real>::record(Half half) {
                  r.if_active([this, g, n] { gather(g, &partial_[n * total_.size()]); }));
   }
   const Datum sum = r.graph.datum();
-  r.graph.reduce("sea/loads/" + when, {reads(partial_data_), writes(sum)},
-                 {runtime::Reduction::Operation::sum, partial_, total_});
+  runtime::Uses uses = r.active_from;
+  uses.push_back(reads(partial_data_)), uses.push_back(writes(sum));
+  r.graph.reduce("sea/loads/" + when, uses, {runtime::Reduction::Operation::sum, partial_, total_, r.active});
   r.graph.task("bodies/substeps/" + when, {reads(sum), reads(r.plan), updates(r.loads)},
                r.if_active([this, half](const Context&, int step) { move(half, step); }));
   for (const int g : groups_)
@@ -109,8 +110,8 @@ void BodyTasks<dim, Real>::move(Half half, int step) {
   double begin = plan.time;
   for (int done = 0; done < step; ++done) begin += plan.dt;  // as the clock will add them up
   const bool last = half == Half::middle || sea.p.step == StepChoice::verlet;
-  driver_.move_bodies({half == Half::begin ? 0 : 1, begin, begin + (last ? plan.dt : 0.5 * plan.dt), plan.dt, contacts_},
-                      wrenches_, motions_);
+  const double dt = plan.dt_of(step);
+  driver_.move_bodies({half == Half::begin ? 0 : 1, begin, begin + (last ? dt : 0.5 * dt), dt, contacts_}, wrenches_, motions_);
   for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], motions_[s]);
   const double farthest = path_limit();
   if (plan.solid_path > farthest)

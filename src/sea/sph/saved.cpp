@@ -164,7 +164,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
   Plan& plan = sea.plan;
   const auto& n = s.plan;
   plan = Plan{};
-  plan.time = n[0], plan.steps = long(n[1]), plan.left = n[2], plan.dt = n[3], plan.planned = int(n[4]), plan.speed = n[5];
+  plan.time = n[0], plan.steps = long(n[1]), plan.left = n[2], plan.dt = plan.last_dt = n[3], plan.planned = int(n[4]),
+  plan.speed = n[5];
   plan.acceleration = n[6], plan.limit = n[7], plan.drift = n[8], plan.solid_drift = n[9], plan.travel = n[10];
   plan.solid_travel = n[11], plan.solid_path = n[13];
   for (const Saved<dim>& piece : pieces)

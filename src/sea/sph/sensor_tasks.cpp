@@ -8,6 +8,7 @@
 
 namespace spindrift::sph {
 
+using runtime::Context;
 using runtime::Datum;
 using runtime::reads;
 using runtime::updates;
@@ -52,15 +53,18 @@ void SensorTasks<dim, Real>::record() {
                  }));
   }
   const Datum sum = r.graph.datum();
-  r.graph.reduce("sea/sensors", {reads(partial_data_), writes(sum)}, {runtime::Reduction::Operation::sum, partial_, total_});
-  r.graph.task("sea/sensors/note", {reads(sum), reads(r.plan), updates(records_)}, r.if_active([this, &sea] {
-    std::span<const double> sums = total_;
-    for (std::size_t n = 0; n < sea.patches.size(); ++n) {
-      const std::size_t size = sums_of(sea.patches[n]);
-      sea.records[n].add(sea.plan.dt, reading_of(sea.patches[n], sums.first(size)));
-      sums = sums.subspan(size);
-    }
-  }));
+  runtime::Uses uses = r.active_from;
+  uses.push_back(reads(partial_data_)), uses.push_back(writes(sum));
+  r.graph.reduce("sea/sensors", uses, {runtime::Reduction::Operation::sum, partial_, total_, r.active});
+  r.graph.task("sea/sensors/note", {reads(sum), reads(r.plan), updates(records_)},
+               r.if_active([this, &sea](const Context&, int step) {
+                 std::span<const double> sums = total_;
+                 for (std::size_t n = 0; n < sea.patches.size(); ++n) {
+                   const std::size_t size = sums_of(sea.patches[n]);
+                   sea.records[n].add(sea.plan.dt_of(step), reading_of(sea.patches[n], sums.first(size)));
+                   sums = sums.subspan(size);
+                 }
+               }));
 }
 
 template <int dim, class Real>

@@ -32,22 +32,34 @@ void Plan::check_limits(const Parameters& p, double body_limit, double speed2, d
                                "sea", steps, time, limit);
 }
 
-void Plan::start_steps(double dt, int count) {
-  this->dt = dt, planned = count;
-  // Over the steps a particle goes at most (|v| + T |a|) T; the half steps' acceleration may be larger, hence the factor two.
-  const double duration = dt * count;
-  travel = duration * (speed + 2.0 * duration * acceleration) + shifted;
+namespace {
+
+/// Over the steps a particle goes at most (|v| + T |a|) T; the half steps' acceleration may be larger, hence the factor two.
+double farthest(double duration, double speed, double acceleration) { return duration * (speed + 2.0 * duration * acceleration); }
+
+}  // namespace
+
+int Plan::steps_within(double drift, int most) const {
+  int count = most;
+  while (count > 1 && this->drift + shifted + farthest(count * limit, speed, acceleration) > drift) --count;
+  return count;
+}
+
+void Plan::start_steps(double dt, int count, double last_dt) {
+  this->dt = dt, this->last_dt = last_dt, planned = count;
+  travel = farthest(dt * (count - 1) + last_dt, speed, acceleration) + shifted;
   drift += travel - shifted;
   solid_travel = 0.0;
 }
 
-void Plan::choose_steps(const StepControl& control) {
+void Plan::choose_steps(const StepControl& control, double drift) {
   if (ended()) return void(planned = 0);
+  const int most = steps_within(drift, control.steps_per_check);
   if (control.choose) {
     try {
-      const StepControl::Choice choice = control.choose(limit);
+      const StepControl::Choice choice = control.choose(limit, most);
       last = choice.last;
-      start_steps(choice.dt, 1);
+      start_steps(choice.dt, choice.count, choice.last_dt);
     } catch (const NumericalFailure& refused) { failure = refused, planned = 0; }
   } else if (control.dt > 0.0) {
     if (control.dt > limit * (1.0 + 1e-12))
@@ -56,14 +68,13 @@ void Plan::choose_steps(const StepControl& control) {
                                " s (largest speed " + in_words(speed) + " m/s, acceleration " + in_words(acceleration) + " m/s2)",
                            "sea", steps, time, limit);
     const double steps_left = std::round(left / control.dt);
-    start_steps(control.dt, failure ? 0 : int(std::min<double>(control.steps_per_check, steps_left)));
+    start_steps(control.dt, failure ? 0 : int(std::min<double>(most, steps_left)));
   } else if (control.steps_per_check == 1) {
     start_steps(std::min(limit, left), 1);
   } else {
-    constexpr double margin = 0.9;  // the limits may tighten before the next check of the limits
-    const double count = std::ceil(left / (margin * limit));
-    const bool ends = count <= control.steps_per_check;
-    start_steps(ends ? left / count : margin * limit, ends ? int(count) : control.steps_per_check);
+    const double step = share_between_checks * limit, count = std::ceil(left / step);
+    const bool ends = count <= most;
+    start_steps(ends ? left / count : step, ends ? int(count) : most);
   }
 }
 
@@ -71,9 +82,10 @@ void Plan::finish_steps(const StepControl& control, StepChoice step, Work& work)
   const bool ends = control.choose     ? last
                     : control.dt > 0.0 ? std::round(left / control.dt) <= planned
                                        : dt * planned >= left * (1.0 - 1e-12);
-  for (int n = 0; n < planned; ++n) time += dt;
+  for (int n = 0; n < planned; ++n) time += dt_of(n);
   steps += planned, work.steps = steps;
   work.evaluations += planned * (step == StepChoice::symplectic ? 2 : 1);
+  if (planned > 1) shifted *= planned;  // what one of them did at most, so far
   if (ends || ended())
     left = 0.0;
   else if (!control.choose)  // who chooses steps knows what is left

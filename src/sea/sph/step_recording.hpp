@@ -49,6 +49,9 @@ struct StepRecording {
   /// Which of the planned steps a task recorded now is part of, seen from within it.
   std::function<int(const runtime::Context&)> step = [](const runtime::Context&) { return 0; };
   std::function<bool(int step)> due = {};  ///< further condition on the tasks recorded now
+  /// Of reductions recorded now, which all ranks make or none: whether their step is one of those planned, and what says so.
+  std::function<bool()> active = {};
+  runtime::Uses active_from = {};
 };
 
 inline std::string task_name(const std::string& path, std::size_t n) { return "sea/" + path + "/" + std::to_string(n); }

@@ -31,8 +31,8 @@ void record_packing(StepRecording<dim, Real>& r, Half half) {
       uses.push_back(updates(r.sums[n]));
     }
     r.graph.task(task_name(half == Half::begin ? "pack" : "predict", b), uses,
-                 r.if_active([&sea = r.sea, &groups = r.bundles[b], half] {
-                   for (const int g : groups) pack(sea.store, sea.p, g, half == Half::begin ? 0.0 : 0.5 * sea.plan.dt);
+                 r.if_active([&sea = r.sea, &groups = r.bundles[b], half](const Context&, int n) {
+                   for (const int g : groups) pack(sea.store, sea.p, g, half == Half::begin ? 0.0 : 0.5 * sea.plan.dt_of(n));
                  }));
   }
 }
@@ -126,15 +126,19 @@ void StepTasks<dim, Real>::steps(bool first) {
     evaluate(Half::begin);
     limits();
     r.graph.task("sea/steps", {updates(r.plan)}, [&sea, &driver = driver_] {
-      sea.plan.choose_steps(driver.steps);
+      sea.plan.choose_steps(driver.steps, sea.p.drift());
       sea.plan.shifted = 0.0;
     });
   } else {
     r.step = [](const Context& c) { return int(c.iteration) + 1; };
-    r.graph.task("sea/substep", {reads(r.plan)}, [] {});  // a rank may have no group, a loop must have a task
+    const Datum number = r.graph.datum();
+    r.graph.task("sea/substep", {reads(r.plan), writes(number)}, [this](const Context& c) { substep_ = recording_.step(c); });
+    r.active = [this] { return substep_ < recording_.sea.plan.planned; };
+    r.active_from = {reads(r.plan), reads(number)};
     evaluate(Half::begin);
   }
   step();
+  r.active = {}, r.active_from.clear();
 }
 
 template <int dim, class Real>
@@ -327,16 +331,17 @@ void StepTasks<dim, Real>::correct() {
     uses.push_back(reads(r.order)), uses.push_back(reads(r.plan));
     r.graph.task(task_name("correct", b), uses, r.if_active([&sea = r.sea, &groups = r.bundles[b]](const Context&, int n) {
       const bool join = (sea.plan.steps + n) % sea.p.verlet_join_every == 0;
+      const double dt = sea.plan.dt_of(n);
       for (const int g : groups) {
-        sea.energy.add_from_task(energy_flow(sea.store, sea.p, g, sea.plan.dt));
+        sea.energy.add_from_task(energy_flow(sea.store, sea.p, g, dt));
         if (sea.p.step == StepChoice::verlet)
-          correct_verlet(sea.store, sea.p, g, sea.plan.dt, join);
+          correct_verlet(sea.store, sea.p, g, dt, join);
         else
-          correct_symplectic(sea.store, sea.p, g, sea.plan.dt);
+          correct_symplectic(sea.store, sea.p, g, dt);
         if (!sea.damping.acts()) continue;
-        sea.energy.add_from_task(damped_energy(sea.store, sea.p, sea.damping, sea.plan.dt, g));
+        sea.energy.add_from_task(damped_energy(sea.store, sea.p, sea.damping, dt, g));
         const Group& group = sea.store.groups[std::size_t(g)];
-        damp(sea.store, sea.damping, sea.plan.dt, group.fluid, group.solid);
+        damp(sea.store, sea.damping, dt, group.fluid, group.solid);
       }
     }));
   }
@@ -346,7 +351,7 @@ void StepTasks<dim, Real>::correct() {
 /// its particles).
 template <int dim, class Real>
 void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep,
-                                       std::function<bool(int step)> due, std::function<double(int group)> apply) {
+                                       std::function<bool(int step)> due, std::function<double(int group, int step)> apply) {
   auto& r = recording_;
   r.due = std::move(due);
   clear_sums(r, which, label);
@@ -357,13 +362,14 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
     Uses uses = of_groups(r.bundles[b], updates, r.state);
     for (const int g : r.bundles[b]) uses.push_back(reads(r.extra[which][std::size_t(g)]));
     uses.push_back(reads(r.order)), uses.push_back(reads(r.plan));
-    r.graph.task(task_name(label + "/apply", b), uses, r.if_active([&groups = r.bundles[b], &plan = r.sea.plan, apply] {
-      double farthest = 0.0;
-      for (const int g : groups) farthest = std::max(farthest, apply(g));
-      // This rank's until the next check of the limits takes the maximum of all; a maximum needs no order.
-      const std::atomic_ref<double> shifted(plan.shifted);
-      for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {}
-    }));
+    r.graph.task(task_name(label + "/apply", b), uses,
+                 r.if_active([&groups = r.bundles[b], &plan = r.sea.plan, apply](const Context&, int n) {
+                   double farthest = 0.0;
+                   for (const int g : groups) farthest = std::max(farthest, apply(g, n));
+                   // This rank's until the next check of the limits takes the maximum of all; a maximum needs no order.
+                   const std::atomic_ref<double> shifted(plan.shifted);
+                   for (double before = shifted.load(); before < farthest && !shifted.compare_exchange_weak(before, farthest);) {}
+                 }));
   }
   r.due = {};
 }
@@ -374,14 +380,14 @@ void StepTasks<dim, Real>::filters() {
   if (sweeps_.filter)
     extra_sweep(
         0, "filter", sweeps_.filter, [&sea](int n) { return (sea.plan.steps + n + 1) % sea.p.filter_every == 0; },
-        [&sea](int g) {
+        [&sea](int g, int) {
           sea.p.filter == FilterChoice::mls ? apply_mls(sea.store, sea.store.extra_sums[0], g)
                                             : apply_shepard(sea.store, sea.store.extra_sums[0], g);
           return 0.0;
         });
   if (sweeps_.shifting)
     extra_sweep(1, "shifting", sweeps_.shifting, {},
-                [&sea](int g) { return apply_shifting(sea.store, sea.store.extra_sums[1], sea.p, g, sea.plan.dt); });
+                [&sea](int g, int n) { return apply_shifting(sea.store, sea.store.extra_sums[1], sea.p, g, sea.plan.dt_of(n)); });
 }
 
 // One dimension and one precision at a time: SPINDRIFT_SPH_DIM and _REAL come from CMakeLists.txt, which compiles this file for

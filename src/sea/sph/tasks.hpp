@@ -53,7 +53,7 @@ class StepTasks {
   void sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const GroupData& data,
                    bool with_stress = false);
   void extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
-                   std::function<double(int group)> apply);
+                   std::function<double(int group, int step)> apply);
 
   static constexpr std::size_t extremes_size = 4;  // speed, acceleration (squares), shift, a request to stop
   StepRecording<dim, Real> recording_;
@@ -67,6 +67,7 @@ class StepTasks {
   std::vector<runtime::Datum> extremes_data_;
   std::vector<double> extremes_;  // by bundle
   double most_[extremes_size] = {};
+  int substep_ = 0;  // of the planned steps, the one that is made
 };
 
 }  // namespace spindrift::sph

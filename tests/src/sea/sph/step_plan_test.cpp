@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/step_plan.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -10,6 +11,8 @@ using namespace spindrift;
 using namespace spindrift::sph;
 
 namespace {
+
+constexpr double anywhere = 1e9;  // particles may go [m]
 
 Parameters still_water() {
   Parameters p;
@@ -25,11 +28,11 @@ std::vector<double> steps_of_window(const StepControl& control) {
   std::vector<double> made;
   for (int n = 0; plan.left > 0.0 && n < 10000; ++n) {
     plan.limit = 0.01 * (1.0 + 0.5 * std::sin(double(n)));
-    plan.choose_steps(control);
+    plan.choose_steps(control, anywhere);
     REQUIRE_FALSE(plan.failure);
     REQUIRE(plan.planned > 0);
-    CHECK(plan.dt <= plan.limit * (1.0 + 1e-12));
-    for (int k = 0; k < plan.planned; ++k) made.push_back(plan.dt);
+    CHECK(std::max(plan.dt, plan.last_dt) <= plan.limit * (1.0 + 1e-12));
+    for (int k = 0; k < plan.planned; ++k) made.push_back(plan.dt_of(k));
     plan.finish_steps(control, StepChoice::symplectic, work);
   }
   CHECK(plan.time == Approx(1.0).epsilon(1e-12));
@@ -52,8 +55,22 @@ TEST_CASE("the steps of a window add up to it and stay below the limit", "[sph][
   }
   SECTION("chosen from outside") {
     int asked = 0;
-    const auto chosen = steps_of_window({.choose = [&](double) { return StepControl::Choice{1e-3, ++asked == 1000}; }});
+    const auto chosen = steps_of_window({.choose = [&](double, int most) {
+      CHECK(most == 1);
+      return StepControl::Choice{1e-3, ++asked == 1000};
+    }});
     CHECK(chosen.size() == 1000);
+  }
+  SECTION("chosen from outside, some at a time, the last of them longer") {
+    int asked = 0;
+    const auto chosen = steps_of_window({.steps_per_check = 7, .choose = [&](double, int most) {
+                                           CHECK(most == 7);
+                                           return StepControl::Choice{1e-3, ++asked == 100, 7, 4e-3};
+                                         }});
+    CHECK(asked == 100);
+    REQUIRE(chosen.size() == 700);
+    CHECK(chosen[5] == 1e-3);
+    CHECK(chosen[6] == 4e-3);
   }
 }
 
@@ -62,10 +79,36 @@ TEST_CASE("a window whose steps are chosen from outside is as long as who choose
   Work work;
   plan.left = 1.0;
   int asked = 0;
-  const StepControl control{.choose = [&](double) { return StepControl::Choice{0.3, ++asked == 10}; }};
-  while (plan.left > 0.0) plan.choose_steps(control), plan.finish_steps(control, StepChoice::symplectic, work);
+  const StepControl control{.choose = [&](double, int) { return StepControl::Choice{0.3, ++asked == 10}; }};
+  while (plan.left > 0.0) plan.choose_steps(control, anywhere), plan.finish_steps(control, StepChoice::symplectic, work);
   CHECK(asked == 10);
   CHECK(plan.time == Approx(3.0));
+}
+
+TEST_CASE("steps between two checks keep particles near where they were sorted", "[sph][step_plan][fast]") {
+  const Parameters p = still_water();
+  Plan plan;
+  plan.check_limits(p, 1e9, 4.0, 0.0, 0.0);  // 2 m/s
+  const int most = plan.steps_within(p.drift(), 1000);
+  CHECK(most > 1);
+  CHECK(most < 1000);
+  CHECK(2.0 * most * plan.limit <= p.drift());
+  CHECK(2.0 * (most + 1) * plan.limit > p.drift());
+  CHECK(plan.steps_within(p.drift(), 2) == 2);
+  plan.choose_steps({.steps_per_check = 1000,
+                     .choose =
+                         [&](double limit, int allowed) {
+                           CHECK(allowed == most);
+                           return StepControl::Choice{limit, false, allowed};
+                         }},
+                    p.drift());
+  CHECK(plan.planned == most);
+  CHECK(plan.steps_within(p.drift(), 1000) == 1);
+  // What shifting adds is known of the farthest step alone.
+  plan.shifted = 1e-3;
+  Work work;
+  plan.finish_steps({.choose = [](double, int) { return StepControl::Choice{1.0, false}; }}, StepChoice::symplectic, work);
+  CHECK(plan.shifted == Approx(most * 1e-3));
 }
 
 TEST_CASE("steps that cannot be made end the window with a failure that says why", "[sph][step_plan][fast]") {
@@ -73,15 +116,16 @@ TEST_CASE("steps that cannot be made end the window with a failure that says why
   plan.left = 1.0;
   SECTION("a fixed step beyond the limit") {
     plan.limit = 1e-3;
-    plan.choose_steps({.dt = 2e-3});
+    plan.choose_steps({.dt = 2e-3}, anywhere);
     REQUIRE(plan.failure);
     CHECK_THAT(plan.failure->what(), Catch::Contains("0.002 s is beyond the limit of 0.001 s"));
     CHECK(plan.planned == 0);
   }
   SECTION("a driver that gives up") {
-    plan.choose_steps({.choose = [](double) -> StepControl::Choice {
-      throw NumericalFailure("bodies: no step is small enough", "bodies", 3, 0.5, 1.0);
-    }});
+    plan.choose_steps({.choose = [](double, int) -> StepControl::Choice {
+                        throw NumericalFailure("bodies: no step is small enough", "bodies", 3, 0.5, 1.0);
+                      }},
+                      anywhere);
     REQUIRE(plan.failure);
     CHECK_THAT(plan.failure->what(), Catch::Contains("bodies: no step"));
     CHECK(plan.planned == 0);

@@ -150,6 +150,55 @@ TEST_CASE("threads and schedules leave every bit, with a body in the loop", "[sp
     CHECK(same(run(scene, {.threads = int(1 + seed % 3), .random_schedule = seed}, 2, step_control), expected));
 }
 
+TEST_CASE("steps checked some at a time have the bits of the same steps checked one by one", "[sph][tasks][fast]") {
+  Scene scene(true, GENERATE(StepChoice::symplectic, StepChoice::verlet));
+  scene.p.filter = FilterChoice::mls, scene.p.filter_every = 3, scene.p.shifting = 2.0, scene.p.verlet_join_every = 3;
+  const auto run_with = [&](StepControl step_control) {
+    SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
+    sea.add_body(2, scene.box);
+    sea.set_bodies(falling(6.0));
+    sea.add_sensor({.owner = 2, .low = {-1, -1, -1}, .high = {3, 3, 3}, .points = {{0, 0, -0.2}}, .mean_over = 1.0});
+    sea.set_step_control(std::move(step_control));
+    sea.advance(window);
+    CHECK(sea.state().work.steps == 6);
+    CHECK(sea.time() == Approx(7e-4));
+    const PatchReading reading = sea.state().records[0].mean();
+    return std::tuple(everything(sea), sea.state().work.sorts, reading.pressure);
+  };
+  int one_by_one = 0, some_at_a_time = 0;
+  const auto each = run_with({.choose = [&](double, int) {
+    ++one_by_one;
+    return StepControl::Choice{one_by_one == 6 ? 2e-4 : 1e-4, one_by_one == 6};
+  }});
+  const auto some =
+      run_with({.steps_per_check = 4, .choose = [&](double, int most) {
+                  CHECK(most == 4);
+                  return ++some_at_a_time == 1 ? StepControl::Choice{1e-4, false, 4} : StepControl::Choice{1e-4, true, 2, 2e-4};
+                }});
+  CHECK(one_by_one == 6);
+  CHECK(some_at_a_time == 2);
+  CHECK(std::get<1>(each) == std::get<1>(some));
+  CHECK(std::get<2>(each) == std::get<2>(some));
+  CHECK(std::get<2>(each) != 0.0);
+  CHECK(same(std::get<0>(each), std::get<0>(some)));
+}
+
+TEST_CASE("what goes wrong between two checks of the limits ends the window at the next", "[sph][tasks][fast]") {
+  const Scene scene(true);
+  SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
+  sea.add_body(2, scene.box);
+  long halves = 0;
+  sea.set_bodies([&](const HalfStep&, std::span<const Wrench>, std::span<Motion>) {
+    if (++halves == 2 * 6 - 1) sea.state().store.v[0][0] = 200.0 * scene.p.eos.c0;  // in the sixth step, the second of its four
+  });
+  sea.set_step_control({.steps_per_check = 4});
+  try {
+    sea.advance(0.05);
+    FAIL("no failure");
+  } catch (const NumericalFailure& failure) { CHECK(failure.step == 8); }
+  CHECK(halves == 2 * 8);
+}
+
 TEST_CASE("fixed steps are made in full and refused beyond their limit", "[sph][tasks][fast]") {
   const Scene scene;
   SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
@@ -244,7 +293,7 @@ void same_bits_on_ranks() {
   const int ranks = runtime::ranks_in(world);
   const int kind = GENERATE(0, 1, 2);
   const Scene scene(kind > 0, StepChoice::symplectic, kind == 2);
-  const StepControl step_control = kind > 0 ? StepControl{} : StepControl{.steps_per_check = 6};
+  const StepControl step_control = kind == 1 ? StepControl{} : StepControl{.steps_per_check = kind == 2 ? 3 : 6};
   const Everything expected = run(scene, {.threads = 1}, 3, step_control);
   const SeaSph<3, float> probe(scene.p, scene.domain, scene.seeds, {.threads = 1});
   CHECK(same(run(scene, {.comm = world, .threads = 1}, 3, step_control), expected));
