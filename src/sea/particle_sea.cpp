@@ -102,8 +102,12 @@ class Sea final : public ParticleSea {
     };
     const auto mine = sph::identities_of(particles_, world.rank, world.size);
     owner_.reserve(mine.last - mine.first);
-    tank.seeds.for_each([&](std::size_t id, const sph::Seed<dim>& seed) {
-      if (id >= mine.first && id < mine.last) owner_.push_back(seed.owner);
+    runtime::give_up_together(world.comm, [&] {
+      tank.seeds.for_each(
+          [&](std::size_t id, const sph::Seed<dim>& seed) {
+            if (id >= mine.first && id < mine.last) owner_.push_back(seed.owner);
+          },
+          [&](const sph::SeedPart<dim>& part) { return part.first < mine.last && part.last > mine.first; });
     });
     for (const SensorOptions& sensor : plan.sensors) sea_.add_sensor(patch_of(plan, sensor, parameters.reach(), solids_));
   }
@@ -329,24 +333,11 @@ class Sea final : public ParticleSea {
   std::array<Saved, 2> snapshots_;
 };
 
-/// The same seeds. All ranks visit them alike, and agree now and then whether to give up.
-template <int dim>
-sph::SeedStream<dim> given_up_together(sph::SeedStream<dim> seeds, MPI_Comm comm) {
-  constexpr std::size_t often = 1 << 18;
-  return {seeds.size(), [seeds = std::move(seeds), comm](const typename sph::SeedStream<dim>::Visit& visit) {
-            seeds.for_each([&](std::size_t id, const sph::Seed<dim>& seed) {
-              if (id % often == 0) runtime::give_up_together(comm, runtime::StopRequest::give_up_if_asked);
-              visit(id, seed);
-            });
-          }};
-}
-
 template <int dim, class Real>
 std::unique_ptr<ParticleSea> make_sea(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world) {
   sph::Parameters parameters = plan.parameters;
   sph::TankParticles<dim> tank;
   runtime::give_up_together(world.comm, [&] { tank = sph::lay_out<dim>(tank_with_bodies(plan, start), parameters); });
-  tank.seeds = given_up_together<dim>(std::move(tank.seeds), world.comm);
   // One in ten thousand may slip through walls (an impact presses some), one in a hundred splash over the edge.
   parameters.lost_at_most = std::size_t(plan.options.lost_at_most.value_or(std::max(10, int(1e-4 * double(tank.water)))));
   if (plan.tank.over_edge_open)

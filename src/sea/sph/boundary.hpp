@@ -23,12 +23,14 @@ class Ghosts {
   Ghosts() = default;
   explicit Ghosts(const SeedStream<dim>& seeds) {
     const std::array<double, dim> none{};
-    seeds.for_each([&](std::size_t id, const Seed<dim>& seed) {
-      if (seed.owner == 0 || seed.ghost == none) return;
-      if (offset_.empty()) first_ = std::uint32_t(id);
-      offset_.resize(id - first_ + 1);
-      offset_.back() = seed.ghost;
-    });
+    seeds.for_each(
+        [&](std::size_t id, const Seed<dim>& seed) {
+          if (seed.owner == 0 || seed.ghost == none) return;
+          if (offset_.empty()) first_ = std::uint32_t(id);
+          offset_.resize(id - first_ + 1);
+          offset_.back() = seed.ghost;
+        },
+        [](const SeedPart<dim>& part) { return part.has_ghosts; });
     built_ = offset_;
   }
   bool empty() const { return offset_.empty(); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/load_balance.hpp"
 
+#include <utility>
+
+#include "runtime/mpi/stop_request.hpp"
 #include "runtime/partition/partition.hpp"
 
 namespace spindrift::sph {
@@ -29,11 +32,21 @@ std::vector<int> first_ranks(const Columns<dim>& columns, const SeedStream<dim>&
   const int ranks = comm.size();
   if (ranks == 1) return std::vector<int>(counts.size(), 0);
   for (int g = 0; g < columns.groups(); ++g) counts[std::size_t(g)] = {g, 0, 0};
-  seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
-    if (!columns.domain().contains(seed.position)) return;
-    GroupCount& count = counts[std::size_t(columns.group(seed.position))];
-    ++(seed.owner == 0 ? count.water : count.solid);
+  runtime::give_up_together(comm.get(), [&] {
+    seeds.for_each_of_rank(comm.rank(), ranks, [&](std::size_t, const Seed<dim>& seed) {
+      if (!columns.domain().contains(seed.position)) return;
+      GroupCount& count = counts[std::size_t(columns.group(seed.position))];
+      ++(seed.owner == 0 ? count.water : count.solid);
+    });
   });
+  runtime::Packer mine;
+  for (GroupCount& c : counts)
+    if (const GroupCount own = std::exchange(c, {c.group, 0, 0}); own.water > 0 || own.solid > 0) mine.put_one(own);
+  for (const runtime::Bytes& bytes : runtime::exchange_all(comm.get(), mine.take()))
+    for (runtime::Unpacker from(bytes); !from.done();) {
+      const auto of_rank = from.one<GroupCount>();
+      counts[std::size_t(of_rank.group)].water += of_rank.water, counts[std::size_t(of_rank.group)].solid += of_rank.solid;
+    }
   for (GroupCount& c : counts)
     c.water = (c.water + cluster_size - 1) / cluster_size, c.solid = (c.solid + cluster_size - 1) / cluster_size;
   return runtime::partition_blocks(block_graph(columns, counts), {.ranks = ranks}, comm.get()).rank_of_block;

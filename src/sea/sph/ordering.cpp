@@ -10,6 +10,7 @@
 
 #include "kernels/base/release.hpp"
 #include "runtime/mpi/exchange.hpp"
+#include "runtime/mpi/stop_request.hpp"
 
 namespace spindrift::sph {
 namespace {
@@ -329,6 +330,25 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
   }
 }
 
+namespace {
+
+/// Whether seeds of the part may be in own columns; those outside the domain go to whoever has the first one.
+template <int dim>
+bool may_be_own(const SeedPart<dim>& part, const Columns<dim>& columns, const Subdomain& subdomain) {
+  const Domain<dim>& domain = columns.domain();
+  bool bounded = true, inside = true;
+  for (int k = 0; k < dim - 1; ++k) {
+    bounded = bounded && std::isfinite(part.low[k]) && std::isfinite(part.high[k]);
+    inside = inside && (domain.periodic[k] || (part.low[k] >= domain.low[k] && part.high[k] < domain.high[k]));
+  }
+  bool own = !bounded || (!inside && subdomain.owns(0));
+  if (!own)
+    columns.for_overlapping(part.low, part.high, [&](const Neighbour<dim>& near) { own = own || subdomain.owns(near.group); });
+  return own;
+}
+
+}  // namespace
+
 template <int dim, class Real>
 void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<dim>& columns, const Subdomain& subdomain,
           MPI_Comm comm, double anchor_step) {
@@ -340,11 +360,18 @@ void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<d
   const auto mine = [&](const Seed<dim>& seed) {  // the sort lists those outside as lost
     return subdomain.owns(columns.domain().contains(seed.position) ? columns.group(seed.position) : 0);
   };
+  const auto visit_mine = [&](const typename SeedStream<dim>::Visit& visit) {
+    runtime::give_up_together(comm, [&] {
+      seeds.for_each(
+          [&](std::size_t id, const Seed<dim>& seed) {
+            if (mine(seed)) visit(id, seed);
+          },
+          [&](const SeedPart<dim>& part) { return may_be_own(part, columns, subdomain); });
+    });
+  };
+  store.owners = seeds.owners();
   std::size_t water = 0;
-  seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
-    store.owners = std::max<int>(store.owners, seed.owner + 1);
-    water += seed.owner == 0 && mine(seed);
-  });
+  visit_mine([&](std::size_t, const Seed<dim>& seed) { water += seed.owner == 0; });
   const auto add = [&](std::size_t id, const Seed<dim>& seed) {
     for (int k = 0; k < dim; ++k) store.x[k].push_back(seed.position[k]), store.v[k].push_back(seed.velocity[k]);
     store.deviation.push_back(seed.deviation);
@@ -362,8 +389,7 @@ void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<d
   store.id.reserve(water), store.deviation.reserve(water);
   for (int k = 0; k < dim; ++k) store.x[k].reserve(water), store.v[k].reserve(water);
   std::vector<std::vector<std::pair<std::size_t, Seed<dim>>>> of_solid(std::size_t(store.owners));
-  seeds.for_each([&](std::size_t id, const Seed<dim>& seed) {
-    if (!mine(seed)) return;
+  visit_mine([&](std::size_t id, const Seed<dim>& seed) {
     if (seed.owner == 0)
       add(id, seed);
     else

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/load_balance.hpp"
 
 namespace spindrift::sph {
@@ -14,10 +15,14 @@ namespace {
 /// Ghost nodes may see no farther than two columns: so far reach the uses of tasks and the halos of ranks. Widens columns for
 /// those that lie far in.
 template <int dim>
-Parameters with_room_for_ghosts(Parameters p, const SeedStream<dim>& seeds) {
+Parameters with_room_for_ghosts(Parameters p, const SeedStream<dim>& seeds, MPI_Comm comm) {
   double farthest = 0.0;
-  seeds.for_each([&](std::size_t, const Seed<dim>& seed) {
-    for (int k = 0; k < dim - 1; ++k) farthest = std::max(farthest, std::abs(seed.ghost[k]));
+  runtime::give_up_together(comm, [&] {
+    seeds.for_each(
+        [&](std::size_t, const Seed<dim>& seed) {
+          for (int k = 0; k < dim - 1; ++k) farthest = std::max(farthest, std::abs(seed.ghost[k]));
+        },
+        [](const SeedPart<dim>& part) { return part.has_ghosts; });
   });
   const double least = p.reach() + 2.0 * p.drift();
   p.column_over_reach = std::max(p.column_over_reach, 0.5 * (farthest + least) / least);
@@ -31,9 +36,9 @@ SeaSph<dim, Real>::SeaSph(const Parameters& parameters, const Domain<dim>& domai
                           const Resources& resources)
     : comm_(resources.comm),
       repartition_above_(resources.repartition_above),
-      s_(with_room_for_ghosts(parameters, seeds), domain),
+      s_(with_room_for_ghosts(parameters, seeds, comm_.get()), domain),
       recorded_(s_, sweeps_, comm_, resources) {
-  s_.ghosts = Ghosts<dim>(seeds);
+  runtime::give_up_together(comm_.get(), [&] { s_.ghosts = Ghosts<dim>(seeds); });
   set_ranks(resources.rank_of_group.empty() ? first_ranks(s_.columns, seeds, comm_) : resources.rank_of_group);
   sweeps_ = sweeps_over(s_);
   fill(s_.store, seeds, s_.columns, s_.subdomain, comm_.get(), s_.p.anchor_step());

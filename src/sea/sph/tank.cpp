@@ -98,12 +98,14 @@ class Layout {
         cut_(cut_of(dim == 2, plan.mirrored)),
         lattice_(plan, p.spacing),
         layers_(wall_layers(p)),
-        by_surfaces_(plan, lattice_, layers_ * p.spacing) {
+        by_surfaces_(plan, lattice_, layers_ * p.spacing),
+        walls_(rows_of_walls()) {
     const double ratio = mean_density_ratio(plan, p);
     p_.mass_factor = lattice_.cell() / std::pow(p.spacing, dim) * ratio;
     row_mass_ = p.eos.rho0 * lattice_.edge[dim - 1] * ratio;
     cell_volume_ = lattice_.cell() / std::pow(p.spacing, dim);
     fill_bodies();
+    make_pieces();
     find_displaced_water();
   }
 
@@ -119,7 +121,7 @@ class Layout {
     std::vector<std::array<double, dim>> points, fixed = std::move(air_);
     double lowest = 1e300, highest = plan_.top;
     std::vector<Moved> aside;
-    visit([&](std::size_t id, const Seed<dim>& seed) {
+    const Visit look = [&](std::size_t id, const Seed<dim>& seed) {
       if (count_ % 65536 == 0) runtime::StopRequest::give_up_if_asked();
       const bool water = seed.owner == water_owner;
       ++count_, result.water += water, result.walls += seed.owner == wall_owner;
@@ -133,7 +135,13 @@ class Layout {
         if (distance < near_bodies * p_.spacing) fixed.push_back(seed.position);
       }
       lowest = std::min(lowest, seed.position[dim - 1]);
-    });
+    };
+    Place at;
+    for (Piece& piece : pieces_) {
+      piece.begin = at, piece.seeds.first = at.id;
+      visit(piece, at, look);
+      piece.seeds.last = at.id;
+    }
     pack_evenly<dim>(points, fixed, spacing_of_cells(), plan_.mirrored ? std::optional(plan_.y[0]) : std::nullopt);
     for (std::size_t n = 0; n < aside.size(); ++n) {
       Moved& moved = aside[n];
@@ -150,33 +158,105 @@ class Layout {
 
   /// Of a settled layout, which it keeps.
   static SeedStream<dim> stream(std::shared_ptr<const Layout> layout) {
-    return {layout->count_, [layout](const Visit& visit) {
-              if (layout->plan_.jitter == 0.0) return layout->visit(visit);
-              layout->visit([&](std::size_t id, const Seed<dim>& seed) {
+    std::vector<SeedPart<dim>> parts;
+    for (const Piece& piece : layout->pieces_) parts.push_back(piece.seeds);
+    return {std::move(parts), [layout](std::size_t part, const Visit& visit) {
+              runtime::StopRequest::give_up_if_asked();
+              const Piece& piece = layout->pieces_[part];
+              Place at = piece.begin;
+              if (layout->plan_.jitter == 0.0) return layout->visit(piece, at, visit);
+              layout->visit(piece, at, [&](std::size_t id, const Seed<dim>& seed) {
                 visit(id, seed.owner == water_owner ? layout->jittered(id, seed) : seed);
               });
             }};
   }
-  /// All seeds in the order of their identities.
-  void visit(const Visit& visit) const {
-    std::size_t id = 0, of_lattice = 0;
-    auto taken = taken_.begin();
-    auto moved = moved_.begin();
-    visit_water([&](const Seed<dim>& seed, double) {
-      if (taken != taken_.end() && *taken == of_lattice++) return void(++taken);
-      Seed<dim> placed = seed;
-      if (moved != moved_.end() && moved->id == id)
-        placed.position = moved->position, placed.deviation = moved->deviation, ++moved;
-      visit(id++, placed);
-    });
-    const auto next = [&](const Seed<dim>& seed) { visit(id++, seed); };
-    visit_walls(next);
-    std::uint16_t owner = wall_owner + 1;
-    if (plan_.paddle) visit_paddle(owner++, next);
-    for (std::size_t b = 0; b < plan_.bodies.size(); ++b) visit_body(b, owner++, next);
-  }
 
  private:
+  /// Where a visit stands: identity, and place of the lattice among those of water.
+  struct Place {
+    std::size_t id = 0, of_lattice = 0;
+  };
+  /// What is visited in one go, one after the other in the order of identities. Of water and walls some columns of the lattice:
+  /// a range along the last horizontal axis, of one place along x in 3-D.
+  struct Piece {
+    enum class Of : std::uint8_t { water, walls, paddle, body } of = Of::water;
+    std::size_t number = 0;  ///< of the block of water, of the body
+    std::array<int, dim> low{}, high{};
+    std::uint16_t owner = water_owner;
+    SeedPart<dim> seeds = {};
+    Place begin = {};
+  };
+
+  void visit(const Piece& piece, Place& at, const Visit& visit) const {
+    const auto next = [&](const Seed<dim>& seed) { visit(at.id++, seed); };
+    switch (piece.of) {
+      case Piece::Of::water: {
+        auto taken = std::lower_bound(taken_.begin(), taken_.end(), at.of_lattice);
+        auto moved =
+            std::lower_bound(moved_.begin(), moved_.end(), at.id, [](const Moved& m, std::size_t id) { return m.id < id; });
+        visit_water(piece, [&](const Seed<dim>& seed, double) {
+          const std::size_t place = at.of_lattice++;
+          if (taken != taken_.end() && *taken == place) return void(++taken);
+          Seed<dim> placed = seed;
+          if (moved != moved_.end() && moved->id == at.id)
+            placed.position = moved->position, placed.deviation = moved->deviation, ++moved;
+          next(placed);
+        });
+        return;
+      }
+      case Piece::Of::walls:
+        return visit_walls(piece, next);
+      case Piece::Of::paddle:
+        return visit_paddle(piece.owner, next);
+      case Piece::Of::body:
+        return visit_body(piece.number, piece.owner, next);
+    }
+  }
+
+  void make_pieces() {
+    for (std::size_t n = 0; n < std::max<std::size_t>(1, plan_.water.size()); ++n)
+      add_pieces({.of = Piece::Of::water, .number = n, .high = lattice_.count}, farthest_off_lattice());
+    add_pieces({.of = Piece::Of::walls, .low = walls_.low, .high = walls_.high, .owner = wall_owner}, 0.0);
+    std::uint16_t owner = wall_owner + 1;
+    if (plan_.paddle) pieces_.push_back({.of = Piece::Of::paddle, .owner = owner++});
+    for (std::size_t b = 0; b < plan_.bodies.size(); ++b)
+      pieces_.push_back({.of = Piece::Of::body, .number = b, .owner = owner++});
+    for (Piece& piece : pieces_) {
+      piece.seeds.largest_owner = piece.owner;
+      piece.seeds.has_ghosts = plan_.modified_walls && piece.owner != water_owner;
+    }
+  }
+  /// `off` [m]: that its seeds may be off their columns.
+  void add_pieces(const Piece& all, double off) {
+    constexpr int axis = dim - 2, columns = 32, most = 16;  // at most so many pieces along the axis
+    const int edge = std::max(columns, (all.high[axis] - all.low[axis] + most - 1) / most);
+    std::array<int, dim> low = all.low, high = all.high;
+    const auto add = [&] {
+      for (int from = all.low[axis]; from < all.high[axis]; from += edge) {
+        low[axis] = from, high[axis] = std::min(from + edge, all.high[axis]);
+        Piece& piece = pieces_.emplace_back(all);
+        piece.low = low, piece.high = high;
+        for (int k = 0; k < dim - 1; ++k)
+          piece.seeds.low[k] = lattice_.at(k, low[k]) - off - 0.5 * lattice_.edge[k],
+          piece.seeds.high[k] = lattice_.at(k, high[k] - 1) + off + 0.5 * lattice_.edge[k];
+      }
+    };
+    if constexpr (dim == 2) {
+      add();
+    } else {
+      for (int i = all.low[0]; i < all.high[0]; ++i) low[0] = i, high[0] = i + 1, add();
+    }
+  }
+  /// How far water may be from its place of the lattice: moved by waves, aside by bodies, and by jitter [m].
+  double farthest_off_lattice() const {
+    double far = (1.0 + plan_.jitter) * p_.spacing;
+    const double top = std::max(0.0, surface_of_scene()) + plan_.depth;
+    for (const waves::Component& c : plan_.waves)
+      far += std::abs(c.speed_amplitude / c.angular_frequency) * std::cosh(c.wave_number * top) /
+             std::sinh(c.wave_number * plan_.depth);
+    return far;
+  }
+
   /// By its identity: the same on any rank.
   Seed<dim> jittered(std::size_t id, Seed<dim> seed) const {
     Random random(Random(plan_.jitter_seed).bits() ^ id);
@@ -248,13 +328,16 @@ class Layout {
     std::size_t of_lattice = 0;
     double displaced = 0.0;  // in particles
     std::vector<std::pair<double, std::size_t>> inside;
-    visit_water(
-        [&](const Seed<dim>& seed, double distance) {
-          displaced += share_of_bodies(seed.position, distance);
-          if (distance < p_.spacing) inside.push_back({distance, of_lattice});
-          ++of_lattice;
-        },
-        [&](const std::array<double, dim>& x) { air_.push_back(x); });
+    for (const Piece& piece : pieces_)
+      if (piece.of == Piece::Of::water)
+        visit_water(
+            piece,
+            [&](const Seed<dim>& seed, double distance) {
+              displaced += share_of_bodies(seed.position, distance);
+              if (distance < p_.spacing) inside.push_back({distance, of_lattice});
+              ++of_lattice;
+            },
+            [&](const std::array<double, dim>& x) { air_.push_back(x); });
     if (displaced <= 0.0) return;
     std::sort(inside.begin(), inside.end());
     inside.resize(std::min(inside.size(), std::size_t(std::lround(displaced))));
@@ -264,18 +347,17 @@ class Layout {
 
   /// water(seed, distance to bodies) for each place of water, also where bodies are; air(place) near bodies, where it is given.
   template <class Water, class Air = std::nullptr_t>
-  void visit_water(Water&& water, Air&& air = {}) const {
-    if (plan_.water.empty()) {
-      visit_water_in({{-1e300, -1e300, -1e300}, {1e300, 1e300, 0.0}}, 0.0, water, air);
-      return;
-    }
-    for (const TankPlan::Block& block : plan_.water) visit_water_in(block, block.high[2], water, air);
+  void visit_water(const Piece& piece, Water&& water, Air&& air = {}) const {
+    if (plan_.water.empty())
+      visit_water_in(piece, {{-1e300, -1e300, -1e300}, {1e300, 1e300, 0.0}}, 0.0, water, air);
+    else
+      visit_water_in(piece, plan_.water[piece.number], plan_.water[piece.number].high[2], water, air);
   }
   /// Rows from the surface down, each with the weight of the rows above it.
   template <class Water, class Air>
-  void visit_water_in(const TankPlan::Block& block, double surface, Water& water, Air& air) const {
+  void visit_water_in(const Piece& piece, const TankPlan::Block& block, double surface, Water& water, Air& air) const {
     constexpr bool with_air = !std::is_same_v<std::remove_cvref_t<Air>, std::nullptr_t>;
-    std::array<int, dim> low{}, high = lattice_.count;
+    std::array<int, dim> low = piece.low, high = piece.high;
     if (with_air) high[dim - 1] += int(near_bodies);  // for bodies that pierce the surface
     for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
       std::array<double, dim> x = lattice_.at(index), under = x;
@@ -362,9 +444,12 @@ class Layout {
     return from_earth<dim>(body.motion.attitude * (2.0 * depth * out.normalized()));
   }
 
-  /// Layers of the lattice under the bed and behind the sides, and obstacles. Behind a paddle the bed and the long sides go on.
-  template <class Next>
-  void visit_walls(Next&& next) const {
+  /// What of the lattice may be walls.
+  struct WallRows {
+    std::array<int, dim> low, high;
+    std::vector<double> bed, lowest_near;  ///< by place along x: the bed, and its lowest within the layers [m]
+  };
+  WallRows rows_of_walls() const {
     const int behind = plan_.paddle ? layers_ + int(std::ceil(plan_.paddle_reach / lattice_.edge[0])) + 1 : layers_;
     std::array<int, dim> low{}, high = lattice_.count;
     low[0] = walled(0) ? -behind : 0;
@@ -374,18 +459,23 @@ class Layout {
     double lowest = -plan_.depth;
     for (const auto& point : plan_.bed) lowest = std::min(lowest, point[1]);
     low[dim - 1] = int(std::floor((lowest + plan_.depth) / lattice_.edge[dim - 1])) - layers_;
-    std::vector<double> bed, lowest_near;
+    WallRows rows{low, high, {}, {}};
     for (int i = low[0]; i < high[0]; ++i) {
-      bed.push_back(bed_of_column(i)), lowest_near.push_back(bed.back());
+      rows.bed.push_back(bed_of_column(i)), rows.lowest_near.push_back(rows.bed.back());
       for (int near = i - layers_; near <= i + layers_; ++near)
-        lowest_near.back() = std::min(lowest_near.back(), bed_of_column(near));
+        rows.lowest_near.back() = std::min(rows.lowest_near.back(), bed_of_column(near));
     }
-    for_lattice<dim>(low, high, [&](const std::array<int, dim>& index) {
+    return rows;
+  }
+  /// Layers of the lattice under the bed and behind the sides, and obstacles. Behind a paddle the bed and the long sides go on.
+  template <class Next>
+  void visit_walls(const Piece& piece, Next&& next) const {
+    for_lattice<dim>(piece.low, piece.high, [&](const std::array<int, dim>& index) {
       const std::array<double, dim> x = lattice_.at(index);
-      const auto column = std::size_t(index[0] - low[0]);
-      const double depth_of_layers = lowest_near[column] - layers_ * lattice_.edge[dim - 1];
+      const auto column = std::size_t(index[0] - walls_.low[0]);
+      const double depth_of_layers = walls_.lowest_near[column] - layers_ * lattice_.edge[dim - 1];
       if (x[dim - 1] < depth_of_layers) return;
-      bool wall = x[dim - 1] < bed[column];
+      bool wall = x[dim - 1] < walls_.bed[column];
       if (walled(0)) wall = wall || index[0] >= lattice_.count[0] || (index[0] < 0 && !plan_.paddle);
       if constexpr (dim == 3) wall = wall || (walled(1) && (index[1] < 0 || index[1] >= lattice_.count[1]));
       bool in_tank = index[0] >= 0 && index[0] < lattice_.count[0];
@@ -460,8 +550,10 @@ class Layout {
   TankLattice<dim> lattice_;
   int layers_;
   PlacesBySurfaces<dim> by_surfaces_;
-  double row_mass_ = 0.0;     ///< mass per area of a row of water [kg/m2]
-  double cell_volume_ = 0.0;  ///< of the lattice over spacing^dim
+  WallRows walls_;
+  std::vector<Piece> pieces_;  ///< in the order of identities
+  double row_mass_ = 0.0;      ///< mass per area of a row of water [kg/m2]
+  double cell_volume_ = 0.0;   ///< of the lattice over spacing^dim
   std::vector<Points> points_;
   std::vector<double> extent_;
   std::vector<std::array<double, dim>> air_;  ///< places of the lattice over the water, near bodies

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/tank.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "kernels/sph/kernel_wendland.hpp"
@@ -173,6 +174,80 @@ TEST_CASE("seeds made anew are the same at every visit, water moved aside by bod
   CHECK(next == once.size());
   CHECK(differing == 0);
   CHECK(off_lattice > 50);  // moved aside by the body
+}
+
+namespace {
+
+/// Every part by itself is that of the whole, in its box; parts are dealt out to ranks once each.
+template <int dim>
+void check_parts(const TankPlan& plan, Parameters p, std::size_t least_parts) {
+  const auto t = lay_out<dim>(plan, p);
+  const std::vector<Seed<dim>> whole = t.seeds.all();
+  REQUIRE(whole.size() == t.seeds.size());
+  std::size_t next = 0, parts = 0, differing = 0, outside = 0, ghosts = 0;
+  t.seeds.for_each([](std::size_t, const Seed<dim>&) {},
+                   [&](const SeedPart<dim>& part) {
+                     CHECK(part.first == next);
+                     t.seeds.for_each(
+                         [&](std::size_t id, const Seed<dim>& seed) {
+                           differing += id != next || seed.position != whole[next].position ||
+                                        seed.deviation != whole[next].deviation || seed.velocity != whole[next].velocity ||
+                                        seed.owner != whole[next].owner || seed.ghost != whole[next].ghost;
+                           for (int k = 0; k < dim - 1; ++k)
+                             outside += seed.position[k] < part.low[k] || seed.position[k] > part.high[k];
+                           outside += seed.owner > part.largest_owner;
+                           ghosts += !part.has_ghosts && seed.ghost != std::array<double, dim>{};
+                           ++next;
+                         },
+                         [&](const SeedPart<dim>& other) { return other.first == part.first; });
+                     CHECK(part.last == next);
+                     ++parts;
+                     return false;
+                   });
+  CHECK(next == whole.size());
+  CHECK(parts >= least_parts);
+  CHECK(differing == 0);
+  CHECK(outside == 0);
+  CHECK(ghosts == 0);
+  for (const int ranks : {1, 5}) {
+    std::vector<int> visits(whole.size(), 0);
+    std::size_t most = 0;
+    for (int rank = 0; rank < ranks; ++rank) {
+      std::size_t mine = 0;
+      t.seeds.for_each_of_rank(rank, ranks, [&](std::size_t id, const Seed<dim>&) { ++visits[id], ++mine; });
+      most = std::max(most, mine);
+    }
+    CHECK(std::ranges::count(visits, 1) == std::ptrdiff_t(whole.size()));
+    if (dim == 3) CHECK(double(most) < 1.3 * double(whole.size()) / ranks);
+  }
+  CHECK(t.seeds.owners() == 2 + int(plan.paddle.has_value()) + int(plan.bodies.size()));
+}
+
+}  // namespace
+
+TEST_CASE("a tank is laid out in parts that each rank may visit by themselves", "[sea][sph][fast]") {
+  TankPlan plan = tank(6.0, 4.0, 1.0);
+  plan.y = {-2.0, 2.0};
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.4}}, {}}};
+  plan.bodies[0].motion.position = {2.0, 0.0, 0.1};
+  SECTION("with waves, a body and jitter") {
+    plan.waves = {{.wave_number = 1.7, .angular_frequency = 4.0, .speed_amplitude = 0.3, .phase = 0.5, .direction = 0.3}};
+    plan.jitter = 0.2;
+    check_parts<3>(plan, particles(0.1, 1.0), 60);
+    check_parts<2>(plan, particles(0.1, 1.0), 4);
+  }
+  SECTION("with modified walls, an obstacle and boxes of water") {
+    plan.modified_walls = true;
+    plan.water = {{{0.0, -2.0, -1.0}, {3.2, 2.0, 0.1}}, {{4.0, -1.5, -1.0}, {5.6, 1.5, -0.4}}};
+    plan.obstacles = {{{4.5, -0.5, -1.0}, {5.3, 0.5, -0.2}}};
+    check_parts<3>(plan, particles(0.1, 1.0), 60);
+  }
+  SECTION("with a slope and a paddle") {
+    plan.bed = {{1.0, -1.0}, {6.0, 0.3}};
+    plan.paddle = Paddle{.flap = true, .x = 0.0, .hinge = -0.6, .bed = -1.0}, plan.paddle_reach = 0.35;
+    check_parts<3>(plan, particles(0.13, 1.0), 60);
+    check_parts<2>(plan, particles(0.05, 1.0), 4);
+  }
 }
 
 TEST_CASE("jitter moves the water alone, evenly within its bound, by seed and identity", "[sea][sph][fast]") {

@@ -13,6 +13,7 @@
 #include "src/sea/sph/load_balance.hpp"
 #include "src/sea/sph/sea_sph.hpp"
 #include "src/sea/sph/shapes.hpp"
+#include "src/sea/sph/tank.hpp"
 #include "tests/src/sea/sph/scenes.hpp"
 
 using namespace spindrift;
@@ -356,8 +357,30 @@ void lost_particles_are_known_to_all() {
   CHECK_THROWS_WITH(strict.advance(0.02), Catch::Contains("left the tank"));
 }
 
+/// A tank whose parts ranks visit by themselves has on each rank what a list has that all visit.
+void parts_fill_ranks_as_a_list() {
+  TankPlan plan;
+  plan.x = {0.0, 4.0}, plan.y = {0.0, 2.0}, plan.depth = 0.5, plan.top = 0.8, plan.jitter = 0.1;
+  plan.periodic = {false, GENERATE(false, true)};
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.25}}, {.position = {1.0, 1.0, 0.0}}}};
+  Parameters p;
+  p.spacing = 0.05, p.h_over_d = 1.3, p.eos = {1000.0, 25.0};
+  const TankParticles<3> tank = lay_out<3>(plan, p);
+  const std::vector<Seed<3>> list = tank.seeds.all();
+  const MPI_Comm world = MPI_COMM_WORLD;
+  const SeaSph<3, float> by_parts(p, tank.domain, tank.seeds, {.comm = world, .threads = 1}),
+      by_list(p, tank.domain, list, {.comm = world, .threads = 1});
+  CHECK(by_parts.state().subdomain.rank_of_group == by_list.state().subdomain.rank_of_group);
+  CHECK(by_parts.store().owners == by_list.store().owners);
+  CHECK(by_parts.store().id == by_list.store().id);
+  CHECK(same(everything(by_parts, world), everything(by_list, world)));
+  CHECK(everything(by_parts, world).size() == list.size());
+}
+
 }  // namespace
 
+TEST_CASE("two ranks fill their columns from parts as from a list", "[sph][tasks][mpi2]") { parts_fill_ranks_as_a_list(); }
+TEST_CASE("four ranks fill their columns from parts as from a list", "[sph][tasks][mpi4]") { parts_fill_ranks_as_a_list(); }
 TEST_CASE("two ranks give the bits of one, however groups are dealt out", "[sph][tasks][mpi2]") { same_bits_on_ranks(); }
 TEST_CASE("four ranks give the bits of one, however groups are dealt out", "[sph][tasks][mpi4]") { same_bits_on_ranks(); }
 TEST_CASE("a state saved on two ranks goes on the same on one and on two", "[sph][tasks][mpi2]") { restart_on_other_ranks(); }
