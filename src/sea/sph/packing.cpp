@@ -37,8 +37,10 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
       if (all[n][1] - *plane < support) all.push_back(image);
     }
     const PointCells<dim> cells(all, support);
+    runtime::StopRequest::give_up_if_asked();
+    // Each point's way is summed by itself, in the order of the cells: the same on any number of threads.
+#pragma omp parallel for schedule(dynamic, 64)
     for (std::size_t i = 0; i < moving; ++i) {
-      if (i % 4096 == 0) runtime::StopRequest::give_up_if_asked();
       std::array<double, dim> way{};
       cells.for_near(all[i], [&](std::uint32_t j) {
         std::array<double, dim> x;

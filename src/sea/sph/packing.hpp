@@ -11,8 +11,8 @@
 
 namespace spindrift::sph {
 
-/// Moves the points; `fixed` ones stay. All stand for a cell of spacing^dim. No point goes farther than a spacing. `plane`: of
-/// symmetry, a value of the second coordinate [m]; all have their images beyond it.
+/// Moves the points, on all threads; `fixed` ones stay. All stand for a cell of spacing^dim. No point goes farther than a
+/// spacing. `plane`: of symmetry, a value of the second coordinate [m]; all have their images beyond it.
 template <int dim>
 void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing,
                  std::optional<double> plane = {});

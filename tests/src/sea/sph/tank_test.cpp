@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/tank.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -174,6 +176,22 @@ TEST_CASE("seeds made anew are the same at every visit, water moved aside by bod
   CHECK(next == once.size());
   CHECK(differing == 0);
   CHECK(off_lattice > 50);  // moved aside by the body
+}
+
+TEST_CASE("water moved aside by a body has the same bits on any number of threads", "[sea][sph][fast]") {
+  TankPlan plan = tank(3.0, 2.0, 1.0);
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.4}}, {}}};
+  plan.bodies[0].motion.position = {1.5, 1.0, -0.1};
+  const int threads = omp_get_max_threads();
+  std::vector<std::vector<Seed<3>>> laid_out;
+  for (const int count : {1, 3}) {
+    omp_set_num_threads(count);
+    Parameters p = particles(0.1, 1.0);
+    laid_out.push_back(lay_out<3>(plan, p).seeds.all());
+  }
+  omp_set_num_threads(threads);
+  CHECK(std::ranges::equal(laid_out[0], laid_out[1], {}, &Seed<3>::position, &Seed<3>::position));
+  CHECK(std::ranges::equal(laid_out[0], laid_out[1], {}, &Seed<3>::deviation, &Seed<3>::deviation));
 }
 
 namespace {
