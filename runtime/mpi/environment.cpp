@@ -26,6 +26,10 @@ namespace {
 
 std::string own_folder;  ///< of Open MPI's files; empty where a launcher gave one
 
+/// hwloc, which Open MPI asks about the computer, asks every X display for its GPUs, and ends the process where one closes
+/// meanwhile. A run needs no GPU. What the user has set stands.
+void without_displays() { setenv("HWLOC_COMPONENTS", "-gl", 0); }
+
 /// A process that no launcher started talks to nobody: Open MPI need neither start a daemon beside it nor open a network, which
 /// takes .5 s. What the user has set stands. Other libraries do not read these names.
 void alone_without_network() {
@@ -45,6 +49,7 @@ void alone_without_network() {
 }  // namespace
 
 MpiEnvironment::MpiEnvironment(int& argc, char**& argv) {
+  without_displays();
   alone_without_network();
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);

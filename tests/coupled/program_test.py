@@ -1,12 +1,16 @@
 """The program as a user meets it: exit codes, messages, run directory, restart, ranks. Usage: program_test.py SPINDRIFT [CLASS...]"""
 import concurrent.futures
+import contextlib
 import functools
 import json
 import os
+import pathlib
 import re
 import shutil
 import signal
+import socket
 import subprocess
+import threading
 import time
 import unittest
 
@@ -20,6 +24,28 @@ class Program(Folder):
     def run_case(self, *more, scene=CASE1, ranks=0, threads=None, out=None):
         env = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
         return spindrift("run", scene, "--out", out or self.out, "--no-report", *more, ranks=ranks, env=env)
+
+    def test_a_run_asks_no_display(self):
+        folder = pathlib.Path("/tmp/.X11-unix")
+        folder.mkdir(mode=0o1777, exist_ok=True)
+        free = [folder / f"X{n}" for n in range(9, 0, -1) if not (folder / f"X{n}").exists()]
+        asked = []
+        with socket.socket(socket.AF_UNIX) as display:  # of the kind that closes on whoever asks
+            display.bind(str(free[0]))
+            self.addCleanup(free[0].unlink)
+            display.listen()
+
+            def serve():
+                with contextlib.suppress(OSError):
+                    while True:
+                        display.accept()[0].close()
+                        asked.append(1)
+
+            threading.Thread(target=serve, daemon=True).start()
+            done = spindrift("check", CASE1, env={name: value for name, value in os.environ.items() if name != "HWLOC_COMPONENTS"})
+            display.shutdown(socket.SHUT_RDWR)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(asked, [])
 
     def test_a_run_leaves_everything_the_documentation_names(self):
         done = self.run_case("--until", 2, "--trace", "--set", "aero.thrust_N=1.4e6")
