@@ -67,9 +67,10 @@ double evaluations_per_second(const Parameters& p, const std::vector<Seed<3>>& s
   const int count = std::max(1, steps / parts);
   double rate = 0.0;
   for (int part = 0; part < parts; ++part) {
-    const double begin = perf::processor_seconds();
-    for (int n = 0; n < count; ++n) sea->step(1.0);
-    rate += 2.0 * double(seeds.size()) * count / (perf::processor_seconds() - begin) / parts;
+    const auto steps_of_part = [&] {
+      for (int n = 0; n < count; ++n) sea->step(1.0);
+    };
+    rate += 2.0 * double(seeds.size()) * count / perf::seconds(steps_of_part, perf::processor_seconds) / parts;
   }
   return rate;
 }

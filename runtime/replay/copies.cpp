@@ -101,7 +101,7 @@ class Copier {
     for (UseRecord& use : to.uses) use.datum = as(use);
     out_.run.ns.push_back(run_.ns[n]), out_.run.iterations.push_back(run_.iterations[n]);
     as_[n] = std::uint32_t(out_.graph.nodes.size() - 1);
-    if (const auto skipped = run_.skipped.find(n); skipped != run_.skipped.end()) out_.run.skipped[as_[n]] = skipped->second;
+    out_.run.skip_as(as_[n], run_, n);
   }
 
   /// The last task added, of copy `k`, writes `own` half: what it reads of the other it reads of the neighbour's on that side.

@@ -41,6 +41,10 @@ bool RunRecord::skips(std::uint32_t node, std::size_t execution) const {
   return of_node != skipped.end() && std::ranges::binary_search(of_node->second, std::uint32_t(execution));
 }
 
+void RunRecord::skip_as(std::uint32_t node, const RunRecord& other, std::uint32_t of_other) {
+  if (const auto found = other.skipped.find(of_other); found != other.skipped.end()) skipped[node] = found->second;
+}
+
 std::uint64_t GraphRecord::bytes(const Edge& edge) const {
   std::uint64_t sum = 0;
   for (const UseRecord& read : nodes[edge.to].uses) {

@@ -56,6 +56,8 @@ struct RunRecord {
   /// `active` said no), so that nothing was sent.
   std::map<std::uint32_t, std::vector<std::uint32_t>> skipped = {};
   bool skips(std::uint32_t node, std::size_t execution) const;
+  /// The node skips what one of another run does.
+  void skip_as(std::uint32_t node, const RunRecord& other, std::uint32_t of_other);
 };
 
 struct RankRecording {

@@ -200,8 +200,7 @@ class Cutter {
         if (writes_to(use) && to.place < 0) to.place = rank.graph.data[use.datum].place;
       }
       rank.run.ns.back() = run_.ns[n];
-      if (const auto skipped = run_.skipped.find(n); skipped != run_.skipped.end())
-        rank.run.skipped[std::uint32_t(rank.graph.nodes.size() - 1)] = skipped->second;
+      rank.run.skip_as(std::uint32_t(rank.graph.nodes.size() - 1), run_, n);
     }
     if (node.kind == NodeKind::task)
       repeated_ns_ += double(ranks.size() - 1) * std::accumulate(run_.ns[n].begin(), run_.ns[n].end(), 0.0);

@@ -50,7 +50,7 @@ RankRun part_of(const GraphRecord& graph, const RunRecord& run, Wanted&& wanted)
     NodeRecord& node = part.graph.nodes.back();
     if (node.loop != no_node) node.loop = as[node.loop];
     part.run.ns.push_back(run.ns[n]), part.run.iterations.push_back(run.iterations[n]);
-    if (const auto skipped = run.skipped.find(n); skipped != run.skipped.end()) part.run.skipped[as[n]] = skipped->second;
+    part.run.skip_as(as[n], run, n);
   }
   for (const Edge& edge : graph.edges)
     if (as[edge.from] != no_node && as[edge.to] != no_node)

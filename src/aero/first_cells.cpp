@@ -149,29 +149,32 @@ bool suits_wall_law(const ResolvedRotorSetup& setup) {
   return share_outside(cells, least, std::numeric_limits<double>::infinity()) < 0.5;
 }
 
+namespace {
+
+template <class Which>
+double share_of(const std::vector<FirstCell>& cells, Which&& which) {
+  double area = 0.0, share = 0.0;
+  for (const FirstCell& c : cells) area += c.area, share += which(c) ? c.area : 0.0;
+  return area > 0.0 ? share / area : 0.0;
+}
+
+std::string middle_and_most(std::vector<FirstCell> cells, double FirstCell::*value) {
+  std::ranges::sort(cells, {}, value);
+  return cells.empty() ? "none"
+                       : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].*value, cells.back().*value);
+}
+
+}  // namespace
+
 double share_outside(const std::vector<FirstCell>& cells, double least, double most) {
-  double area = 0.0, outside = 0.0;
-  for (const FirstCell& c : cells) area += c.area, outside += c.y_plus < least || c.y_plus > most ? c.area : 0.0;
-  return area > 0.0 ? outside / area : 0.0;
+  return share_of(cells, [&](const FirstCell& c) { return c.y_plus < least || c.y_plus > most; });
 }
-
 double share_growing(const std::vector<FirstCell>& cells, double most) {
-  double area = 0.0, beyond = 0.0;
-  for (const FirstCell& c : cells) area += c.area, beyond += c.growth > most ? c.area : 0.0;
-  return area > 0.0 ? beyond / area : 0.0;
+  return share_of(cells, [&](const FirstCell& c) { return c.growth > most; });
 }
 
-std::string describe(std::vector<FirstCell> cells) {
-  std::ranges::sort(cells, {}, &FirstCell::y_plus);
-  return cells.empty() ? "none"
-                       : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].y_plus, cells.back().y_plus);
-}
-
-std::string describe_growth(std::vector<FirstCell> cells) {
-  std::ranges::sort(cells, {}, &FirstCell::growth);
-  return cells.empty() ? "none"
-                       : fmt::format("{:.3g} in the middle, {:.3g} at most", cells[cells.size() / 2].growth, cells.back().growth);
-}
+std::string describe(const std::vector<FirstCell>& cells) { return middle_and_most(cells, &FirstCell::y_plus); }
+std::string describe_growth(const std::vector<FirstCell>& cells) { return middle_and_most(cells, &FirstCell::growth); }
 
 std::string more_layers(const FlowOptions& o) {
   if (!o.generate) return fmt::format("take a grid with more layers than aero.flow.grid = \"{}\"", o.grid);

@@ -48,10 +48,9 @@ double share_outside(const std::vector<FirstCell>& cells, double least, double m
 double share_growing(const std::vector<FirstCell>& cells, double most);
 
 /// Middle and largest of them: "0.4 in the middle, 1.2 at most".
-std::string describe(std::vector<FirstCell> cells);
-
-/// The same of their growth: "1.35 in the middle, 1.36 at most".
-std::string describe_growth(std::vector<FirstCell> cells);
+std::string describe(const std::vector<FirstCell>& cells);
+/// The same of their growth.
+std::string describe_growth(const std::vector<FirstCell>& cells);
 
 /// A sentence for each treatment that does not suit a tenth of its walls' area or more: resolved walls want y+ up to 5, the law
 /// of the wall 15 to 1000. Another for resolved walls whose cells grow by more than doubted_growth over a tenth of their area;

@@ -38,11 +38,6 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
   return all;
 }
 
-/// Where the scene asks for more layers.
-std::string remedy(const coupling::Scenario& s) {
-  return has_resolved_rotor(s) ? "raise aero.grid.cells_layers" : more_layers(*s.aero.flow);
-}
-
 /// What growth does was measured on sections: of a rotor it is doubted and ends no run.
 std::string why_unresolved(const aero::FirstCells& cells, const coupling::Scenario& scenario) {
   constexpr double log_layer = 30.0;
@@ -55,11 +50,15 @@ std::string why_unresolved(const aero::FirstCells& cells, const coupling::Scenar
     return fmt::format(
         "cells grow from layer to layer off no_slip walls by {}, above {:g} over {:.0f} % of their area: few are left to the "
         "boundary layer, and the loads are no answer; {}",
-        describe_growth(cells.resolved), aero::useless_growth, 100.0 * off, remedy(scenario));
+        describe_growth(cells.resolved), aero::useless_growth, 100.0 * off, more_layers(scenario));
   return {};
 }
 
 }  // namespace
+
+std::string more_layers(const coupling::Scenario& s) {
+  return has_resolved_rotor(s) ? "raise aero.grid.cells_layers" : aero::more_layers(*s.aero.flow);
+}
 
 std::string unresolved_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario, const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
@@ -69,7 +68,7 @@ std::string unresolved_walls(const aero::FlowSolver& solver, const coupling::Sce
 std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario,
                                          const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
-  return world.rank == 0 ? doubts_of(cells, remedy(scenario)) : std::vector<std::string>();
+  return world.rank == 0 ? doubts_of(cells, more_layers(scenario)) : std::vector<std::string>();
 }
 
 }  // namespace spindrift::run

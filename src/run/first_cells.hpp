@@ -11,6 +11,9 @@
 
 namespace spindrift::run {
 
+/// Where the scene asks for more cells in the boundary layer of its walls.
+std::string more_layers(const coupling::Scenario& scenario);
+
 /// Why loads are wrong, whatever the residual: over most of the resolved walls one cell bridges the buffer layer (y+ above
 /// 30), or, without a rotor, cells grow by more than aero::useless_growth from layer to layer. Empty where they may be right. The
 /// same on all ranks. Collective.

@@ -234,8 +234,7 @@ std::string FlowSimulation::failure_at_end() const {
   if (!air_.steady() || o.drop <= 0.0) {
     if (air_.start() == FlowCase::Start::first_order)
       return "aero: the pseudo-steps of the scene are spent while the march was of first order, which is no answer; --restart "
-             "with "
-             "a larger time.end_s goes on";
+             "with a larger time.end_s goes on";
     const std::string walls = unresolved_walls(air_.solver(), scenario_, world_);
     return walls.empty() ? walls : "aero: " + walls;
   }

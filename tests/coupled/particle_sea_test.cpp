@@ -287,6 +287,18 @@ TEST_CASE("limits checked every four substeps take a quarter of the reductions, 
   CHECK(four.z_m == Approx(one.z_m).margin(0.004));  // jittered starts of "every scheme runs": 0.0410 to 0.0439
 }
 
+TEST_CASE("a body of half the water's weight whose particles have its own mass is lifted by half the force at first",
+          "[coupled][sea][fast]") {
+  const auto first_lift = [](const std::string& whose) {
+    const test::Folder folder("own_mass");
+    std::vector<std::string> overrides = small_box;
+    overrides.insert(overrides.end(), {"time.end_s=0.04", "sea.particles.body_particles='" + whose + "'"});
+    CHECK(test::run_scene(test::input(box), overrides, folder.path()).exit_code == 0);
+    return scene::read_columns((folder.path() / "history.csv").string())["box.sea.fz_N"].front();
+  };
+  CHECK(first_lift("own") == Approx(0.5 * first_lift("water")).epsilon(0.1));  // of a few hundred particles
+}
+
 TEST_CASE("a paddle starts over two periods of its waves where the scene does not say", "[coupled][sea][fast]") {
   const auto growth = [](const std::string& tank, const std::vector<std::string>& overrides) {
     scene::Document document = scene::load(test::input(tank), overrides);

@@ -273,12 +273,13 @@ void ImplicitSystem::apply_update(FlowTile& tile) const {
         double& q = tile.state.data()[tile.cells.at(k, j, i) + (mean_unknowns + t) * tile.cells.component];
         const double change = share * s.model_unknown[std::size_t(t)] * double(*d++),
                      low = residual_.model().lowest[std::size_t(t)];
-        if (const double most = 0.9 * (q - low); change < -most) {
+        const double most = 0.9 * (q - low);
+        if (change < -most) {
           clipped = true;
           if (const double allowed = most / -change; allowed < tile.worst_clip.fraction)
             tile.worst_clip = {allowed, {i, j, k}, "the change of turbulence in"};
         }
-        q += std::max(change, -0.9 * (q - low));
+        q += std::max(change, -most);
       }
       tile.clipped += clipped;
     }

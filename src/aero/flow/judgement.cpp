@@ -19,6 +19,13 @@ namespace {
 /// Of `norms`; the mass balance follows what the march needs.
 constexpr std::size_t first_of_mass = 10, norm_count = first_of_mass + mass_components;
 
+std::string cell_text(int block, const Index& cell) {
+  return fmt::format("block {} cell ({}, {}, {})", block, cell[0], cell[1], cell[2]);
+}
+std::string place_text(int block, const Index& cell, const std::array<double, 3>& x) {
+  return fmt::format("{} at ({:.4g}, {:.4g}, {:.4g}) m", cell_text(block, cell), x[0], x[1], x[2]);
+}
+
 /// Sum of squares of what round-off leaves in the scaled residuals of a uniform stream: a part in 1e17 of the pressure on all
 /// faces, which is 1 / (gamma M^2) in their units.
 double noise_of(const FlowTile& tile, const FlowSetting& s) {
@@ -205,27 +212,23 @@ void Judgement::name_trouble() {
   const auto worst = std::ranges::min_element(arrays_.tiles, {}, [](const FlowTile& tile) { return tile.limit.fraction; });
   if (worst == arrays_.tiles.end() || worst->limit.fraction >= 1.0) return;
   const Tile& tile = arrays_.of(*worst);
-  const Index at = tile.to_block(worst->limit.cell);
-  trouble_ = std::string("; ") + worst->limit.what + " block " + std::to_string(tile.block) + " cell (" + std::to_string(at[0]) +
-             ", " + std::to_string(at[1]) + ", " + std::to_string(at[2]) + ")";
+  trouble_ = fmt::format("; {} {}", worst->limit.what, cell_text(tile.block, tile.to_block(worst->limit.cell)));
 }
 
 std::string limited_cells(const TileArrays& arrays, MPI_Comm comm) {
-  const auto worst = [&](auto&& limit_of) {
-    const FlowTile* tile = nullptr;
-    for (const FlowTile& t : arrays.tiles)
-      if (limit_of(t).fraction < (tile ? limit_of(*tile).fraction : 1.0)) tile = &t;
+  const auto worst = [&](UpdateLimit FlowTile::*which) {
     std::string text;
     double fraction = 1.0;
-    if (tile) {
-      const UpdateLimit& limit = limit_of(*tile);
+    const auto tile = std::ranges::min_element(arrays.tiles, {}, [&](const FlowTile& t) { return (t.*which).fraction; });
+    if (tile != arrays.tiles.end() && ((*tile).*which).fraction < fraction) {
+      const UpdateLimit& limit = (*tile).*which;
       fraction = limit.fraction;
       const auto [i, j, k] = limit.cell;
-      const Index cell = arrays.of(*tile).to_block(limit.cell);
       const BoxLayout& centres = tile->geometry->cell_box;
       const double* x = tile->geometry->centre_data.data() + centres.at(k, j, i);
-      text = fmt::format("{} block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m, to {:.2g} of itself", limit.what,
-                         arrays.of(*tile).block, cell[0], cell[1], cell[2], x[0], x[centres.component], x[2 * centres.component],
+      text = fmt::format("{} {}, to {:.2g} of itself", limit.what,
+                         place_text(arrays.of(*tile).block, arrays.of(*tile).to_block(limit.cell),
+                                    {x[0], x[centres.component], x[2 * centres.component]}),
                          fraction);
     }
     runtime::Packer mine;
@@ -238,8 +241,7 @@ std::string limited_cells(const TileArrays& arrays, MPI_Comm comm) {
     }
     return text;
   };
-  const std::string mean = worst([](const FlowTile&t) -> const UpdateLimit& { return t.worst_limit; }),
-                    model = worst([](const FlowTile&t) -> const UpdateLimit& { return t.worst_clip; });
+  const std::string mean = worst(&FlowTile::worst_limit), model = worst(&FlowTile::worst_clip);
   return mean.empty() || model.empty() ? mean + model : mean + " and " + model;
 }
 
@@ -248,7 +250,7 @@ std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, 
     double balance = -1.0;
     int block = 0, unknown = 0;
     Index cell{};
-    double x[3] = {0.0, 0.0, 0.0};
+    std::array<double, 3> x{};
   };
   std::array<Worst, 2> worst;  // of the mean flow, of turbulence
   for (const FlowTile& tile : arrays.tiles)
@@ -275,9 +277,8 @@ std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, 
   std::string text;
   for (const Worst& w : worst)
     if (w.balance >= 0.0)
-      text += fmt::format("{}the balance of {} in block {} cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m",
-                          text.empty() ? "worst are " : " and ", names[std::size_t(w.unknown)], w.block, w.cell[0], w.cell[1],
-                          w.cell[2], w.x[0], w.x[1], w.x[2]);
+      text += fmt::format("{}the balance of {} in {}", text.empty() ? "worst are " : " and ", names[std::size_t(w.unknown)],
+                          place_text(w.block, w.cell, w.x));
   return text;
 }
 

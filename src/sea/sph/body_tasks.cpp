@@ -57,9 +57,7 @@ void BodyTasks<dim, Real>::record(Half half) {
                  r.if_active([this, g, n] { gather(g, &partial_[n * total_.size()]); }));
   }
   const Datum sum = r.graph.datum();
-  runtime::Uses uses = r.active_from;
-  uses.push_back(reads(partial_data_)), uses.push_back(writes(sum));
-  r.graph.reduce("sea/loads/" + when, uses, {runtime::Reduction::Operation::sum, partial_, total_, r.active});
+  r.sum("sea/loads/" + when, partial_data_, sum, partial_, total_);
   r.graph.task("bodies/substeps/" + when, {reads(sum), reads(r.plan), updates(r.loads)},
                r.if_active([this, half](const Context&, int step) { move(half, step); }));
   for (const int g : groups_)

@@ -53,9 +53,7 @@ void SensorTasks<dim, Real>::record() {
                  }));
   }
   const Datum sum = r.graph.datum();
-  runtime::Uses uses = r.active_from;
-  uses.push_back(reads(partial_data_)), uses.push_back(writes(sum));
-  r.graph.reduce("sea/sensors", uses, {runtime::Reduction::Operation::sum, partial_, total_, r.active});
+  r.sum("sea/sensors", partial_data_, sum, partial_, total_);
   r.graph.task("sea/sensors/note", {reads(sum), reads(r.plan), updates(records_)},
                r.if_active([this, &sea](const Context&, int step) {
                  std::span<const double> sums = total_;

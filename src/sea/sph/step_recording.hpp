@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -40,6 +41,14 @@ struct StepRecording {
     };
   }
 
+  /// A sum over all ranks of what one step of those planned gives, which all ranks make or none.
+  void sum(const std::string& label, const std::vector<runtime::Datum>& partial, runtime::Datum total, std::span<double> from,
+           std::span<double> to) const {
+    runtime::Uses uses = active_from;
+    uses.push_back(runtime::reads(partial)), uses.push_back(runtime::writes(total));
+    graph.reduce(label, uses, {runtime::Reduction::Operation::sum, from, to, active});
+  }
+
   SeaState<dim, Real>& sea;
   runtime::Graph& graph;
   std::vector<std::vector<int>> bundles;       ///< own groups, some thousand particles each
@@ -49,7 +58,7 @@ struct StepRecording {
   /// Which of the planned steps a task recorded now is part of, seen from within it.
   std::function<int(const runtime::Context&)> step = [](const runtime::Context&) { return 0; };
   std::function<bool(int step)> due = {};  ///< further condition on the tasks recorded now
-  /// Of reductions recorded now, which all ranks make or none: whether their step is one of those planned, and what says so.
+  /// Of sums recorded now: whether their step is one of those planned, and what says so.
   std::function<bool()> active = {};
   runtime::Uses active_from = {};
 };
