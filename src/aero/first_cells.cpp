@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/base/failure.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow/sweep_model.hpp"
@@ -15,8 +16,10 @@
 #include "src/aero/grid/index_map.hpp"
 #include "src/aero/grid/line_growth.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
-#include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/rotor_grid/options.hpp"
+#include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/scene/error.hpp"
 
 namespace spindrift::aero {
 
@@ -69,7 +72,7 @@ void add_faces_of(const Boundary& b, const MultiBlockGrid& grid, Condition condi
 double growth_from(const WallFace& face, const MultiBlockGrid& grid, double y_plus) {
   const Window& where = face.of->where;
   const int layers = grid.blocks[std::size_t(where.block)].cells()[std::size_t(direction_of(where.side))];
-  LineGrowth growth(wall_layer_y_plus * face.distance / std::max(y_plus, 1e-12));
+  LineGrowth growth(reach_of_growth(y_plus, face.distance));
   Eigen::Vector3d last = middle(face_corners(*face.of, grid, face.cell, 0));
   for (int n = 1; n <= layers && !growth.done(); ++n) {
     const Eigen::Vector3d next = middle(face_corners(*face.of, grid, face.cell, n));
@@ -85,24 +88,64 @@ double plate_y_plus(double speed, double x, double nu, double distance) {
   return speed * std::sqrt(0.5 * cf) * distance / nu;
 }
 
-/// Of both sides of a blade from the hub to where the tip is closed.
+/// What blades meet, and what their grid is made to. A rotor whose speed is not known turns at a tip-speed ratio of 7.
+struct BladeFlow {
+  BladeFlow(const ResolvedRotorSetup& setup, const Turbine& turbine)
+      : wind(setup.wind.norm()),
+        turning(setup.rotor.speed != 0.0 ? std::abs(setup.rotor.speed) : 7.0 * wind / turbine.planform.span.back()),
+        nu(setup.flow.viscosity_Pa_s / setup.air_density),
+        spec(rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, turning, wind)) {}
+  double speed(double r) const { return std::hypot(turning * r, wind); }
+
+  double wind, turning, nu;
+  RotorGridSpec spec;
+};
+
+/// Of both sides of a blade from the hub to where the tip is closed, by the grid's description.
 std::vector<FirstCell> blade_cells(const ResolvedRotorSetup& setup, const Turbine& turbine) {
-  constexpr double outer = 0.985, speed_ratio = 7.0;
+  constexpr double outer = 0.985;
   constexpr int sections = 24, along_chord = 10;
   const Planform& blade = turbine.planform;
-  const double tip = blade.span.back(), wind = setup.wind.norm();
-  const double turning = setup.rotor.speed != 0.0 ? std::abs(setup.rotor.speed) : speed_ratio * wind / tip;
-  const RotorGridSpec spec = rotor_grid_spec(setup.grid, turbine, setup.rotor.blade_pitch, turning, wind);
-  const double nu = setup.flow.viscosity_Pa_s / setup.air_density, length = (outer * tip - spec.hub_radius_m) / sections;
+  const BladeFlow flow(setup, turbine);
+  const RotorGridSpec& spec = flow.spec;
+  const double length = (outer * blade.span.back() - spec.hub_radius_m) / sections;
   std::vector<FirstCell> cells;
   for (int n = 0; n < sections; ++n) {
     const double r = spec.hub_radius_m + (n + 0.5) * length, chord = interpolate_linear(blade.span, blade.chord, r);
-    const double speed = std::hypot(turning * r, wind);
+    const double speed = flow.speed(r);
     double height = spec.first_cell_m > 0.0 ? spec.first_cell_m : spec.first_cell_chords * chord;
     if (spec.y_plus > 0.0) height = first_cell_for(spec.y_plus, speed, chord, spec.kinematic_viscosity);
     for (int i = 0; i < along_chord; ++i)
       cells.push_back({2.0 * chord / along_chord * length,
-                       plate_y_plus(speed, (i + 0.5) / along_chord * chord, nu, 0.5 * height * (1 << spec.coarsen))});
+                       plate_y_plus(speed, (i + 0.5) / along_chord * chord, flow.nu, 0.5 * height * (1 << spec.coarsen))});
+  }
+  return cells;
+}
+
+/// By the nodes of some coaxial surfaces, each for the part of a blade about it: growth too. Throws NumericalFailure where they
+/// cannot be made.
+std::vector<FirstCell> blade_lines(const ResolvedRotorSetup& setup, const Turbine& turbine) {
+  constexpr int most_surfaces = 6;
+  const BladeFlow flow(setup, turbine);
+  const RotorGridMaker maker(turbine, flow.spec);
+  const int step = 1 << flow.spec.coarsen, span = flow.spec.sizes.span / step, surfaces = std::min(span, most_surfaces);
+  std::vector<FirstCell> cells;
+  for (int n = 0; n < surfaces; ++n) {
+    const int low = span * n / surfaces, high = span * (n + 1) / surfaces;
+    const Plane surface = maker.surface((low + high) / 2);
+    const double length = maker.radius(high) - maker.radius(low), speed = flow.speed(surface.r);
+    const int round = surface.ring.round / step, layers = surface.ring.layers / step;
+    const auto node = [&](int i, int j) { return surface.ring_nodes[surface.ring.at(i * step, j * step)]; };
+    const Eigen::Vector2d nose = node(round / 2, 0), to_tail = node(0, 0) - nose;
+    const double chord = to_tail.norm();
+    for (int i = 0; i < round; ++i) {
+      const auto height = [&](int j) { return (node(i, j + 1) - node(i, j)).norm(); };
+      const double x = std::max((node(i, 0) - nose).dot(to_tail) / chord, 0.01 * chord), centre = 0.5 * height(0);
+      const double y_plus = plate_y_plus(speed, x, flow.nu, centre);
+      LineGrowth growth(reach_of_growth(y_plus, centre));
+      for (int j = 0; j < layers && !growth.done(); ++j) growth.add(height(j));
+      cells.push_back({0.5 * (node(i + 1, 0) - node(i - 1, 0)).norm() * length, y_plus, growth.largest()});
+    }
   }
   return cells;
 }
@@ -135,9 +178,13 @@ FirstCells expected_first_cells(const ResolvedRotorSetup& setup) {
   for (const PatchOptions& b : o.boundaries)
     if (b.patch == "blade_1") condition = b.condition;
   if (!sticks(condition)) return {};
-  FirstCells cells;
-  (of(condition).wall_law ? cells.by_law : cells.resolved) = blade_cells(setup, read_turbine(setup.rotor.turbine));
-  return cells;
+  const Turbine turbine = read_turbine(setup.rotor.turbine);
+  if (of(condition).wall_law) return {.resolved = {}, .by_law = blade_cells(setup, turbine)};
+  try {
+    return {.resolved = blade_lines(setup, turbine), .by_law = {}};
+  } catch (const NumericalFailure& failure) {
+    throw scene::SceneError({{setup.rotor.turbine, 0, "aero.grid", "", failure.what()}});
+  }
 }
 
 bool suits_wall_law(const ResolvedRotorSetup& setup) {

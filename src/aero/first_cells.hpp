@@ -34,8 +34,8 @@ struct FirstCells {
 /// (White, Fluid Mechanics, 7th ed. 2011, eq. 7.43). Empty where the flow has no turbulence model.
 FirstCells expected_first_cells(const MultiBlockGrid& grid, const FlowOptions& options, const FlowSetting& setting);
 
-/// The same on the blades of a resolved rotor, each section a plate of its chord at the speed of its radius, up to where the tip
-/// is closed. The turbine file must be readable.
+/// The same on the blades of a resolved rotor, each section a plate of its chord at the speed of its radius. Of resolved blades
+/// some surfaces of nodes are made for it. The turbine file must be readable; throws scene::SceneError where no grid can be made.
 FirstCells expected_first_cells(const ResolvedRotorSetup& setup);
 
 /// Whether the cells at the blades leave the boundary layer to a law of the wall, of a closure that has one: y+ of 10 and more

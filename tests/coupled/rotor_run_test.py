@@ -1,5 +1,7 @@
 """The blade-resolved rotor as a user runs it: history, loads along the span, what `check` says, a restart, what is refused.
 Usage: rotor_run_test.py SPINDRIFT"""
+import json
+import re
 import unittest
 
 from running import Folder, ROOT, rows, spindrift
@@ -60,6 +62,28 @@ class RotorRun(Folder):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertIn("First cells at walls", done.stdout)
                 self.assertIn(words, done.stdout) if words else self.assertNotIn("y+ of first cells is", done.stdout)
+
+    def growth(self, text):
+        """In the middle and at most, as a doubt has them."""
+        return [float(v) for v in re.search(r"cells grow from layer to layer off resolved walls by ([\d.]+) in the middle, ([\d.]+) at most", text).groups()]
+
+    def test_check_foretells_the_growth_that_the_run_doubts(self):
+        resolved = ["aero.flow.blades=no_slip", "aero.grid.y_plus=1"]
+        done = spindrift("check", SCENE, settings=resolved)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"growth off resolved +\d\S* in the middle, \d\S* at most, up to y\+ 300")
+        self.assertRegex(done.stdout, r"warning: cells grow from .*; raise aero.grid.cells_layers\n")
+        foretold = self.growth(done.stdout)
+        done = spindrift("run", SCENE, "--out", self.out, "--no-report", settings=[*resolved, "time.end_s=4", "aero.flow.drop=0", "output.expected=[]"])
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        [said] = [text for text in json.loads((self.out / "summary.json").read_text())["numerical_trouble"] if "cells grow" in text]
+        self.assertTrue(said.endswith("raise aero.grid.cells_layers"), said)
+        for ours, theirs in zip(foretold, self.growth(said)):
+            self.assertAlmostEqual(ours / theirs, 1.0, delta=0.1)
+        done = spindrift("check", SCENE, settings=[*resolved, "aero.grid.cells_layers=40"])
+        self.assertIn("growth off resolved", done.stdout)
+        self.assertNotIn("warning: cells grow", done.stdout)
+        self.assertNotIn("growth off", spindrift("check", SCENE).stdout)  # by the law of the wall
 
     def test_wind_across_the_axis_is_refused_where_flow_is_to_be_steady(self):
         done = spindrift("check", SCENE, settings=["wind.direction_deg=20"])

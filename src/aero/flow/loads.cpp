@@ -33,7 +33,7 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
 double growth_of_line(const FlowTile& tile, Side side, Index at, double y_plus, double distance) {
   const int d = direction_of(side), cells = d == 0 ? tile.box.ni : d == 1 ? tile.box.nj : tile.box.nk;
   const TileGeometry& g = *tile.geometry;
-  LineGrowth growth(distance > 0.0 ? wall_layer_y_plus * distance / std::max(y_plus, 1e-12) : 0.0);
+  LineGrowth growth(distance > 0.0 ? reach_of_growth(y_plus, distance) : 0.0);
   for (int n = 0; n < cells && !growth.done(); ++n, at[std::size_t(d)] += at_end(side) ? -1 : 1) {
     const auto [i, j, k] = at;
     const double areas = face_at(g, d, k, j, i).area + face_at(g, d, k + (d == 2), j + (d == 1), i + (d == 0)).area;

@@ -10,6 +10,9 @@ namespace spindrift::aero {
 /// How far from the wall growth counts, in units of its friction: to the end of the logarithmic layer of a section's flow.
 inline constexpr double wall_layer_y_plus = 300.0;
 
+/// [m], from the y+ of the first cell's centre and its distance from the wall.
+inline double reach_of_growth(double y_plus, double distance) { return wall_layer_y_plus * distance / std::max(y_plus, 1e-12); }
+
 /// Takes the heights of a line's cells from the wall on.
 class LineGrowth {
  public:

@@ -8,6 +8,7 @@
 
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/rotor_grid/layout.hpp"
+#include "src/aero/rotor_grid/plane.hpp"
 #include "src/aero/turbine.hpp"
 
 namespace spindrift::aero {
@@ -26,6 +27,9 @@ class RotorGridMaker {
 
   int layers() const { return spec_.sizes.radial() >> spec_.coarsen; }  ///< of cells, from hub to outer radius
   const MultiBlockGrid& described() const { return described_; }        ///< the whole without nodes
+  /// A surface of nodes by itself, from the hub on: as fine as before any were left out.
+  Plane surface(int k) const { return make_plane(blade_, layout_, k << spec_.coarsen); }
+  double radius(int k) const { return layout_.radii()[std::size_t(k << spec_.coarsen)]; }  ///< its own [m]
   /// Layers [first, last) of all blocks, and with `compared` one more where there is one. Patches and connections are those of
   /// the part; where it is cut off the patch is named "cut".
   GridLayers make(int first, int last, bool compared = false) const;

@@ -2,6 +2,8 @@
 // Apache-2.0
 #include "src/aero/first_cells.hpp"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -11,6 +13,8 @@
 #include "src/aero/grid/generators/plane_cases.hpp"
 #include "src/aero/grid/line_growth.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
+#include "src/aero/rotor_grid/options.hpp"
+#include "src/aero/rotor_grid/rotor_grid.hpp"
 #include "src/aero/turbine.hpp"
 
 using namespace spindrift;
@@ -104,6 +108,52 @@ TEST_CASE("growth above 1.5 over a tenth of resolved walls is doubted with what 
     o.generate->kind = kind;
     CHECK_THAT(more_layers(o), Contains(std::string("aero.flow.generate.") + key));
   }
+}
+
+TEST_CASE("growth off a rotor's resolved blades is foretold as its whole grid has it, from six surfaces of nodes",
+          "[flow][fast]") {
+  ResolvedRotorSetup s;
+  s.rotor.turbine = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/turbines/dtu_10mw.toml";
+  s.rotor.speed = 0.925, s.wind = {11.0, 0.0, 0.0};
+  s.flow.blades = Condition::no_slip;
+  s.grid.y_plus = 1.0;
+  const auto growths = [](std::vector<FirstCell> cells) {
+    std::ranges::sort(cells, {}, &FirstCell::growth);
+    REQUIRE(!cells.empty());
+    return std::array{cells[cells.size() / 2].growth, cells[cells.size() * 95 / 100].growth};
+  };
+  const Turbine turbine = read_turbine(s.rotor.turbine);
+  double planform = 0.0;
+  for (std::size_t n = 1; n < turbine.planform.span.size(); ++n)
+    planform += 0.5 * (turbine.planform.chord[n] + turbine.planform.chord[n - 1]) *
+                (turbine.planform.span[n] - turbine.planform.span[n - 1]);
+  for (const auto& [layers, coarsen] : {std::pair{10, 0}, {32, 0}, {20, 1}}) {
+    s.grid.cells_layers = layers, s.grid.coarsen = coarsen;
+    const FirstCells foretold = expected_first_cells(s);
+    CHECK(foretold.by_law.empty());
+    double area = 0.0;
+    for (const FirstCell& c : foretold.resolved) area += c.area;
+    CHECK(area == Approx(2.0 * planform).epsilon(0.1));
+    FlowOptions o = s.flow;
+    o.boundaries = {{.patch = "blade_1", .condition = Condition::no_slip}};
+    const RotorGridSpec spec = rotor_grid_spec(s.grid, turbine, 0.0, s.rotor.speed, 11.0);
+    const FirstCells whole =
+        expected_first_cells(make_rotor_grid(turbine, spec), o, flow_setting(o, 1.225, {0.0, 80.0, 0.0}, 0.0));
+    const auto expected = growths(whole.resolved), found = growths(foretold.resolved);
+    CAPTURE(layers, coarsen, expected[0], expected[1]);
+    CHECK(found[0] == Approx(expected[0]).epsilon(0.03));
+    CHECK(found[1] == Approx(expected[1]).epsilon(0.05));
+    const auto doubts = doubts_of(foretold, "raise aero.grid.cells_layers");
+    if (layers == 32) {
+      CHECK(found[1] < doubted_growth);
+      CHECK(doubts.empty());
+    } else {
+      REQUIRE(!doubts.empty());
+      CHECK_THAT(doubts.back(), Contains("cells grow from layer to layer") && Contains("raise aero.grid.cells_layers"));
+    }
+  }
+  s.flow.blades = Condition::wall_function;
+  for (const FirstCell& c : expected_first_cells(s).by_law) CHECK(c.growth == 1.0);
 }
 
 TEST_CASE("the y+ expected on a rotor's blades is that asked of its grid, and says which walls suit them", "[flow][fast]") {
