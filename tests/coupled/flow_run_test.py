@@ -4,6 +4,8 @@ import json
 import unittest
 import xml.etree.ElementTree
 
+import numpy
+
 from running import Folder, ROOT, rows, spindrift
 
 CASES = ROOT / "inputs/validation"
@@ -82,6 +84,54 @@ class FlowRun(Folder):
         done = spindrift("check", naca / "naca0012.toml")
         self.assertIn("growth off resolved", done.stdout)
         self.assertNotIn("warning: cells grow", done.stdout)
+
+    def section_of_file(self, growth, first_cell):
+        """Settings for the C grid of the TMR with layers in one geometric row off the section, by file: Plot3D with its map, and CGNS."""
+        source, plot3d = CASES / "naca0012/tmr_224x64", self.path / f"growth_{growth}.p3d"
+        numbers = source.with_suffix(".p3d").read_text().split()
+        around, off = int(numbers[1]), int(numbers[2])
+        x, z = numpy.array(numbers[3:], dtype=float).reshape(2, off, around)
+        gaps = numpy.hypot(numpy.diff(x, axis=0), numpy.diff(z, axis=0))
+        heights = first_cell * growth ** numpy.arange(int(numpy.log(gaps.sum(axis=0).max() / first_cell * (growth - 1.0) + 1.0) / numpy.log(growth)))
+        share = numpy.concatenate(([0.0], heights.cumsum())) / heights.sum()
+        made = numpy.empty((2, len(share), around))
+        for i in range(around):
+            along = numpy.concatenate(([0.0], gaps[:, i].cumsum()))
+            made[:, :, i] = [numpy.interp(share * along[-1], along, of[:, i]) for of in (x, z)]
+        plot3d.write_text(f"1\n{around} {len(share)}\n" + "\n".join(f"{v:.16g}" for v in made.ravel()))
+        plot3d.with_suffix(".nmf").write_text(source.with_suffix(".nmf").read_text().replace(str(off), str(len(share))))
+        files = {plot3d: [f'aero.flow.grid="{plot3d}"', f'aero.flow.map="{plot3d.with_suffix(".nmf")}"']}
+        cgns = plot3d.with_suffix(".cgns")
+        done = spindrift("grid", CASES / "naca0012/naca0012.toml", "-o", cgns, settings=files[plot3d])
+        if "built without CGNS" not in done.stdout + done.stderr:
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            files[cgns] = [f'aero.flow.grid="{cgns}"', 'without="aero.flow.map"']
+        return files
+
+    def test_a_file_whose_cells_grow_fast_or_begin_too_thick_is_doubted_by_its_name(self):
+        scene, steps = CASES / "naca0012/naca0012.toml", ["time.end_s=30.0", "aero.flow.drop=0.0", "output.expected=[]"]
+        grows, thick = "cells grow from layer to layer off", "y+ of first cells is"
+        for growth, first_cell, doubt, other, ends in ((1.8, 3.5e-6, grows, thick, 0), (3.5, 3.5e-6, grows, thick, 3), (1.2, 1e-3, thick, grows, 3)):
+            for file, grid in self.section_of_file(growth, first_cell).items():
+                with self.subTest(file=file.name):
+                    remedy = f'take a grid with more layers than aero.flow.grid = "{file}"'
+                    done = spindrift("check", scene, settings=grid)
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    warnings = [line for line in done.stdout.splitlines() if doubt in line]
+                    self.assertEqual(len(warnings), 1, done.stdout)
+                    self.assertNotIn(other, done.stdout)
+                    done = spindrift("run", scene, "--out", self.out, "--overwrite", "--no-report", settings=[*grid, *steps])
+                    self.assertEqual(done.returncode, ends, done.stdout + done.stderr)
+                    summary = json.loads((self.out / "summary.json").read_text())
+                    said = [*warnings, *summary["numerical_trouble"]]
+                    self.assertEqual(len(said), 2 if ends == 0 else 3, said)
+                    for text in said:
+                        self.assertIn(doubt, text)
+                        self.assertNotIn("cells_layers", text)
+                        if doubt == grows:
+                            self.assertIn(f"{growth:g} in the middle", text)
+                            self.assertTrue(text.endswith(remedy), text)
+                    self.assertEqual("the loads are no answer" in summary["exit_reason"], ends == 3)
 
     def test_ranks_do_not_change_a_bit(self):
         scene, more = CASES / "cylinder_low_mach/cylinder.toml", ("--until", 12, "--no-report")
