@@ -204,6 +204,28 @@ void MarchingAir::open_output(const io::RunDirectory& directory, double resume_s
       AirOutput::Choice{.walls = flow.surfaces, .moves = !scenario().has_actuator(), .resume_s = resume_s});
 }
 
+void MarchingAir::end_window() {
+  const aero::PseudoStep& last = solver_->march().last;
+  const bool first = limits_.shortened() + limits_.clipped() == 0;
+  limits_.count(last.limited, last.clipped);
+  if (last.limited + last.clipped == 0.0) return;
+  const aero::LimitPlaces places = solver_->limited_cells(aero::Updates::last, world_.comm);
+  worst_limits_.keep_worse(places, fmt::format("t = {:g} s", t_));
+  if (!first) return;
+  const std::string most = places.text();
+  log_lines_.push_back(fmt::format(
+      "warning: air: the last update of the window to t = {:g} s went beyond the bounds of {}{}; such windows are counted", t_,
+      aero::limited_update(last.limited, last.clipped, solver_->cells()), most.empty() ? "" : "; most was " + most));
+}
+
+AirSide::Account MarchingAir::account() const {
+  Account account{{{"shortened_windows", limits_.shortened()}, {"clipped_windows", limits_.clipped()}}, {}};
+  const std::string text =
+      limits_.text(fmt::format("the last pseudo-steps of {} windows", limits_.counted()), solver_->cells(), worst_limits_);
+  if (!text.empty()) account.sentences.push_back("air: " + text);
+  return account;
+}
+
 void MarchingAir::write_span() { coupling::write_span(world_, span_loads(), *directory_); }
 
 }  // namespace spindrift::coupling

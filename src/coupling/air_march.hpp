@@ -39,6 +39,8 @@ class MarchingAir : public AirSide {
   void open_output(const io::RunDirectory& directory, double resume_s) final;
   Writing copy_fields(std::int64_t number, double t) final { return output_->copy(number, t); }
   void write_span() final;
+  void end_window() final;
+  Account account() const final;
   std::vector<std::string> log_lines() final { return std::exchange(log_lines_, {}); }
 
  protected:
@@ -96,6 +98,9 @@ class MarchingAir : public AirSide {
   std::unique_ptr<AirOutput> output_;
   double made_s_ = 0.0;      ///< that make() took at most
   bool told_spent_ = false;  ///< that a step spent its pseudo-steps
+  /// Of the last pseudo-steps of windows of this process.
+  aero::UpdateLimits limits_;
+  aero::LimitPlaces worst_limits_;
 };
 
 /// Of the air in a coupled window [s].

@@ -5,10 +5,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/executor/executor.hpp"
@@ -79,7 +81,15 @@ class AirSide {
   /// A copy of the fields as they are, to be written while the air lives; empty where there are none.
   virtual Writing copy_fields(std::int64_t /*number*/, double /*t*/) { return {}; }
   virtual void write_span() {}
-  /// Sentences for the log since it was last asked.
+  /// A window has ended well: its state is what the next one goes on from. Collective.
+  virtual void end_window() {}
+  /// Of the run at its end: counts into the summary, sentences for the log. Collective.
+  struct Account {
+    std::vector<std::pair<std::string, std::int64_t>> counts;
+    std::vector<std::string> sentences;
+  };
+  virtual Account account() const { return {}; }
+  /// Sentences for the log since it was last asked; those that begin with "warning: " warn.
   virtual std::vector<std::string> log_lines() { return {}; }
 };
 

@@ -159,6 +159,29 @@ class SharedAir final : public AirSide {
   void write_span() override {
     if (own_) own_->write_span();
   }
+  void end_window() override {
+    if (own_) own_->end_window();
+  }
+  Account account() const override {
+    Account account;
+    broadcast_from(
+        parts_, air_part,
+        [&](Packer& to) {
+          const Account own = own_->account();
+          to.put_one(own.counts.size());
+          for (const auto& [name, count] : own.counts) put(to, name), to.put_one(count);
+          for (const std::vector<std::string>& sentences : {own_->log_lines(), own.sentences})  // what the last window has left
+            for (const std::string& sentence : sentences) put(to, sentence);
+        },
+        [&](Unpacker& from) {
+          for (std::size_t left = from.one<std::size_t>(); left > 0; --left) {
+            std::string name = text(from);
+            account.counts.emplace_back(std::move(name), from.one<std::int64_t>());
+          }
+          while (!from.done()) account.sentences.push_back(text(from));
+        });
+    return account;
+  }
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:

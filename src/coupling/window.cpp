@@ -66,10 +66,14 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
   sides_.begin_window(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
-  last_ = !sides_.interface || state.tick < 0 ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
+  const bool air_waits = !sides_.interface || state.tick < 0;
+  last_ = air_waits ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
   last_.stopped = sides_.stopped();
   last_.of_a_side = !last_.failure.empty() && !sides_.trouble().empty();
-  if (!last_.ok()) sides_.return_to(AirSide::window, Run::both);
+  if (!last_.ok())
+    sides_.return_to(AirSide::window, Run::both);
+  else if (!air_waits)
+    sides_.air().end_window();
   ++totals_.windows;
   totals_.evaluations += last_.log.evaluations, totals_.probes += last_.log.probes;
   totals_.retries += last_.log.retries, totals_.cuts += last_.log.cuts;

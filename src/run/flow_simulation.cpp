@@ -182,23 +182,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
 }
 
 void FlowSimulation::count_limits(std::span<const aero::PseudoRow> rows) {
-  for (const aero::PseudoRow& row : rows) {
-    limits_.shortened += row.limited > 0.0, limits_.clipped += row.clipped > 0.0;
-    limits_.most_limited = std::max(limits_.most_limited, std::int64_t(row.limited));
-    limits_.most_clipped = std::max(limits_.most_clipped, std::int64_t(row.clipped));
-  }
-}
-
-/// Of the updates so far, with the place of the worst cells; empty where no cell had a limit. Collective.
-std::string FlowSimulation::limits() const {
-  std::string text;
-  if (limits_.shortened > 0)
-    text = fmt::format("{} pseudo-steps were shortened, as up to {} cells would have changed too much; ", limits_.shortened,
-                       limits_.most_limited);
-  if (limits_.clipped > 0)
-    text += fmt::format("in {} turbulence's update was kept above its bound, in up to {} cells; ", limits_.clipped,
-                        limits_.most_clipped);
-  return text.empty() ? text : text + "most was " + air_.solver().limited_cells(world_.comm);
+  for (const aero::PseudoRow& row : rows) limits_.count(row.limited, row.clipped);
 }
 
 /// Of a steady march that comes to nothing, for this reason; false where there is no other way to begin it.
@@ -286,7 +270,9 @@ void FlowSimulation::write_at_end(std::int64_t window) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());
   }
-  if (const std::string text = limits(); !text.empty()) spdlog::info("air: {}", text);
+  const std::string limits = limits_.text(fmt::format("{} pseudo-steps", limits_.counted()), air_.solver().cells(),
+                                          air_.solver().limited_cells(aero::Updates::all, world_.comm));
+  if (!limits.empty()) spdlog::info("air: {}", limits);
   if (air_.actuator() && windows_ > 0) coupling::write_span(world_, air_.actuator()->span_loads(), directory_);
   if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
   while (last_rows_.size() > averaged(window)) last_rows_.pop_front();
@@ -298,8 +284,8 @@ void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
   summary.counts.emplace_back("cells", air_.solver().cells());
   summary.numerical_trouble.insert(summary.numerical_trouble.end(), doubts_.begin(), doubts_.end());
   summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total);
-  summary.counts.emplace_back("shortened_pseudo_steps", limits_.shortened);
-  summary.counts.emplace_back("clipped_pseudo_steps", limits_.clipped);
+  summary.counts.emplace_back("shortened_pseudo_steps", limits_.shortened());
+  summary.counts.emplace_back("clipped_pseudo_steps", limits_.clipped());
 }
 
 }  // namespace spindrift::run

@@ -50,7 +50,6 @@ class FlowSimulation final : public Simulation {
   void record();
   std::size_t averaged(std::int64_t windows) const;
   void count_limits(std::span<const aero::PseudoRow> rows);
-  std::string limits() const;
   void write_at_end(std::int64_t window);
 
   const coupling::Scenario& scenario_;
@@ -69,10 +68,7 @@ class FlowSimulation final : public Simulation {
   std::deque<aero::PseudoRow> last_rows_;
   std::int64_t windows_ = 0;         ///< completed by this process
   std::vector<std::string> doubts_;  ///< of the flow at the end, said in the log
-  /// Pseudo-steps of this process whose update was shortened, or turbulence's in some cells; the most cells that had a limit.
-  struct Limits {
-    std::int64_t shortened = 0, clipped = 0, most_limited = 0, most_clipped = 0;
-  } limits_;
+  aero::UpdateLimits limits_;        ///< of the pseudo-steps of this process
 };
 
 }  // namespace spindrift::run

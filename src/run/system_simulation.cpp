@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -151,6 +152,15 @@ class AirFields final : public Output {
   coupling::AirSide& air_;
   Every every_;
 };
+
+void write_lines(const std::vector<std::string>& sentences) {
+  constexpr std::string_view warns = "warning: ";
+  for (const std::string& sentence : sentences)
+    if (sentence.starts_with(warns))
+      spdlog::warn("{}", sentence.substr(warns.size()));
+    else
+      spdlog::info("{}", sentence);
+}
 
 /// Of what the scene has.
 std::string smaller_steps(const coupling::FloatingSystem& floating, int retry) {
@@ -302,9 +312,7 @@ void SystemSimulation::start_clocks() {
   core_seconds_[3] = runtime::summed(parts_.world().comm, {1e-9 * double(parts_.waited_ns())})[0];
 }
 
-void SystemSimulation::write_log_lines() {
-  for (const std::string& sentence : window_.sides().air().log_lines()) spdlog::info("{}", sentence);
-}
+void SystemSimulation::write_log_lines() { write_lines(window_.sides().air().log_lines()); }
 
 /// A line of log.txt for a window: how it went, and core-seconds of each side on all ranks; not for single evaluations of a
 /// system without fluids, which are too short to be worth a line. Collective.
@@ -369,6 +377,9 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
     summary.counts.emplace_back("particles_lost", std::int64_t(counts.lost));
     summary.counts.emplace_back("particles_left", std::int64_t(counts.left));
   }
+  const coupling::AirSide::Account air = window_.sides().air().account();
+  summary.counts.insert(summary.counts.end(), air.counts.begin(), air.counts.end());
+  write_log_lines(), write_lines(air.sentences);
   // Bodies that no particle moves go on within tasks of the sea; all ask for their loads within their own.
   if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {
     if (floating_.particles() && !floating_.particles()->moves_solids())

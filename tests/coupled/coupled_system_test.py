@@ -253,6 +253,43 @@ class SystemRun(System):
             rows = self.text("parts").splitlines()
             self.assertEqual(self.text("whole").splitlines()[:len(rows)], rows, f"first after the restart before window {n}")
 
+    def limits_told(self, name):
+        """Windows whose last update went beyond bounds, of the mean flow and of turbulence, as history.csv has them; checked against what else says so."""
+        rows = self.rows(name)[1:]
+        limited, clipped = (sum(row[f"air.{kind}_cells"] > 0 for row in rows) for kind in ("limited", "clipped"))
+        summary = json.loads((self.path / name / "summary.json").read_text())
+        self.assertEqual((summary["counts"]["shortened_windows"], summary["counts"]["clipped_windows"]), (limited, clipped))
+        log = (self.path / name / "log.txt").read_text().splitlines()
+        warned = [line for line in log if "went beyond the bounds of" in line]
+        self.assertEqual(len(warned), 1 if limited + clipped else 0, warned)
+        ends = [line for line in log if f"of the last pseudo-steps of {len(rows)} windows" in line]
+        self.assertEqual(len(ends), len(warned), ends)
+        if limited:
+            first = next(row for row in rows if row["air.limited_cells"] > 0)
+            self.assertRegex(warned[0], rf" warning +air: the last update of the window to t = {first['time_s']:g} s .*{first['air.limited_cells']:.0f} cells \(.* %\) of the mean flow.*; most was the change of \w+ in block \d+ cell")
+            most = max(row["air.limited_cells"] for row in rows)
+            self.assertRegex(ends[0], rf"in {limited} of the last .* as up to {most:.0f} cells \(.* %\) would have changed too much.*; most was .* m, to .* of itself, t = [\d.]+ s")
+        return limited, clipped, summary["warnings"]
+
+    def test_updates_beyond_bounds_at_the_ends_of_windows_are_warned_of_once_and_counted(self):
+        hard = ["aero.flow.cfl=1e4", "aero.flow.cfl_max=1e5", "aero.flow.max_pseudo_steps=1", "start.air_steps=0", "time.end_s=0.4"]
+        self.spindrift(ENGINEERING, "hard", settings=hard)
+        limited, _, warnings = self.limits_told("hard")
+        self.assertGreater(limited, 1)
+        self.assertGreater(warnings, 0)
+        self.spindrift(ENGINEERING, "ranks", settings=hard, ranks=2)
+        self.assertEqual(self.limits_told("ranks")[0], limited)
+        self.spindrift(ENGINEERING, "iterated", settings=[*hard, "coupling.scheme='iqn_ils'", "coupling.tolerance=1e-2"])
+        self.assertGreater(self.limits_told("iterated")[0], 0)
+        self.spindrift(PARTICLES, "split", settings=[*hard, *self.SPLIT, "time.end_s=0.2"], ranks=2)
+        self.assertGreater(self.limits_told("split")[0], 0)
+        self.spindrift(ENGINEERING, "calm", settings=["start.air_steps=40", "time.end_s=0.2"])
+        self.assertEqual(self.limits_told("calm")[:2], (0, 0))
+        self.ended([PROGRAM, "report", self.path / "hard"], 1, 0)
+        page = (self.path / "hard/report.html").read_text()
+        self.assertIn("went beyond the bounds of", page)
+        self.assertIn(f"shortened windows: {limited}", page)
+
     def columns(self, name):
         return set(self.text(name).split("\n", 1)[0].split(","))
 

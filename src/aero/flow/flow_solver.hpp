@@ -87,7 +87,7 @@ class FlowSolver {
   const std::vector<PseudoRow>& rows() const { return judgement_.rows.all; }
   FlowRestart& restart() { return restart_; }
   const FlowRestart& restart() const { return restart_; }
-  std::string limited_cells(MPI_Comm comm) const { return aero::limited_cells(arrays_, comm); }
+  LimitPlaces limited_cells(Updates which, MPI_Comm comm) const { return aero::limited_cells(arrays_, which, comm); }
   std::string worst_cells(MPI_Comm comm) const { return aero::worst_cells(arrays_, system_, comm); }
   std::vector<WallPoint> wall_points(const FlowTile& tile) const { return residual_.wall_points(tile); }
 

@@ -75,8 +75,8 @@ struct FlowTile {
   std::vector<AlignedArray<float>> vectors;          ///< of the Krylov cycle: [cell][5], then [cell][turbulence]
   std::vector<AlignedArray<float>> directions_kept;  ///< of flexible GMRES and GCG
 
-  UpdateLimit limit;                    ///< of the last update
-  UpdateLimit worst_limit, worst_clip;  ///< since the tile was made: of the mean flow's updates, of turbulence's
+  UpdateLimit limit, clip;              ///< of the last update: of the mean flow's, of turbulence's
+  UpdateLimit worst_limit, worst_clip;  ///< likewise, since the tile was made
   long limited = 0, clipped = 0;        ///< cells with a limit in the last update: of the mean flow, of turbulence
   double noise = 0.0;                   ///< squared norm of what round-off leaves of its balances
 

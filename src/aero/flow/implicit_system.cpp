@@ -253,7 +253,7 @@ double ImplicitSystem::update_fraction(FlowTile& tile) const {
 
 void ImplicitSystem::apply_update(FlowTile& tile) const {
   std::copy_n(tile.state.data(), tile.state.size(), tile.trial.data());
-  tile.clipped = 0;
+  tile.clip = {}, tile.clipped = 0;
   const double share = fraction.one();
   if (share < 0.0) return;
   const float* d = cycle_.solution(tile);
@@ -276,14 +276,15 @@ void ImplicitSystem::apply_update(FlowTile& tile) const {
         const double most = 0.9 * (q - low);
         if (change < -most) {
           clipped = true;
-          if (const double allowed = most / -change; allowed < tile.worst_clip.fraction)
-            tile.worst_clip = {allowed, {i, j, k}, "the change of turbulence in"};
+          if (const double allowed = most / -change; allowed < tile.clip.fraction)
+            tile.clip = {allowed, {i, j, k}, "the change of turbulence in"};
         }
         q += std::max(change, -most);
       }
       tile.clipped += clipped;
     }
   });
+  if (tile.clip.fraction < tile.worst_clip.fraction) tile.worst_clip = tile.clip;
 }
 
 }  // namespace spindrift::aero

@@ -215,34 +215,32 @@ void Judgement::name_trouble() {
   trouble_ = fmt::format("; {} {}", worst->limit.what, cell_text(tile.block, tile.to_block(worst->limit.cell)));
 }
 
-std::string limited_cells(const TileArrays& arrays, MPI_Comm comm) {
-  const auto worst = [&](UpdateLimit FlowTile::*which) {
-    std::string text;
-    double fraction = 1.0;
-    const auto tile = std::ranges::min_element(arrays.tiles, {}, [&](const FlowTile& t) { return (t.*which).fraction; });
-    if (tile != arrays.tiles.end() && ((*tile).*which).fraction < fraction) {
-      const UpdateLimit& limit = (*tile).*which;
-      fraction = limit.fraction;
+LimitPlaces limited_cells(const TileArrays& arrays, Updates which, MPI_Comm comm) {
+  const auto worst = [&](UpdateLimit FlowTile::*of) {
+    LimitPlace place;
+    const auto tile = std::ranges::min_element(arrays.tiles, {}, [&](const FlowTile& t) { return (t.*of).fraction; });
+    if (tile != arrays.tiles.end() && ((*tile).*of).fraction < place.fraction) {
+      const UpdateLimit& limit = (*tile).*of;
       const auto [i, j, k] = limit.cell;
       const BoxLayout& centres = tile->geometry->cell_box;
       const double* x = tile->geometry->centre_data.data() + centres.at(k, j, i);
-      text = fmt::format("{} {}, to {:.2g} of itself", limit.what,
-                         place_text(arrays.of(*tile).block, arrays.of(*tile).to_block(limit.cell),
-                                    {x[0], x[centres.component], x[2 * centres.component]}),
-                         fraction);
+      place = {limit.fraction, fmt::format("{} {}, to {:.2g} of itself", limit.what,
+                                           place_text(arrays.of(*tile).block, arrays.of(*tile).to_block(limit.cell),
+                                                      {x[0], x[centres.component], x[2 * centres.component]}),
+                                           limit.fraction)};
     }
     runtime::Packer mine;
-    mine.put_one(fraction), mine.put(std::span<const char>(text));
+    mine.put_one(place.fraction), mine.put(std::span<const char>(place.text));
     for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
       runtime::Unpacker from(bytes);
       const auto other = from.one<double>();
       const std::vector<char> said = from.many<char>();
-      if (other < fraction) fraction = other, text.assign(said.begin(), said.end());
+      if (other < place.fraction) place = {other, std::string(said.begin(), said.end())};
     }
-    return text;
+    return place;
   };
-  const std::string mean = worst(&FlowTile::worst_limit), model = worst(&FlowTile::worst_clip);
-  return mean.empty() || model.empty() ? mean + model : mean + " and " + model;
+  const bool last = which == Updates::last;
+  return {worst(last ? &FlowTile::limit : &FlowTile::worst_limit), worst(last ? &FlowTile::clip : &FlowTile::worst_clip)};
 }
 
 std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, MPI_Comm comm) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -19,6 +20,7 @@
 #include "src/aero/flow/loads.hpp"
 #include "src/aero/flow/tile_arrays.hpp"
 #include "src/aero/flow/tile_sums.hpp"
+#include "src/aero/flow/update_limits.hpp"
 
 namespace spindrift::aero {
 
@@ -105,9 +107,10 @@ class Judgement {
   std::string trouble_;
 };
 
-/// Where updates were shortened most since the tiles were made: the cell that bound that of the mean flow, and the one in which
-/// turbulence's was; a part of a sentence, empty where none was. Collective; of equally bad cells that of the first rank.
-std::string limited_cells(const TileArrays& arrays, MPI_Comm comm);
+/// Where updates were shortened most since the tiles were made, or in the last one alone: the cell that bound that of the mean
+/// flow, and the one in which turbulence's was. Collective; of equally bad cells that of the first rank.
+enum class Updates : std::uint8_t { all, last };
+LimitPlaces limited_cells(const TileArrays& arrays, Updates which, MPI_Comm comm);
 
 /// Where the flow is farthest from its balance, as last judged: cells of the mean flow and of turbulence, a sentence. Collective.
 std::string worst_cells(const TileArrays& arrays, const ImplicitSystem& system, MPI_Comm comm);

@@ -138,18 +138,19 @@ TEST_CASE("cells whose bounds shorten an update are counted, and the worst of th
   FlowSetting setting = viscous_air();
   setting.march.cfl_start = 1e3, setting.march.max_steps = 12;
   Case weak = bump(setting, 1, 0), strong = bump(setting, 1, 0);
-  strong.solver->start([&](const Eigen::Vector3d& x) {
+  const auto hot_middle = [&](const Eigen::Vector3d& x) {
     gas::Primitive<double> q = setting.stream;
     const double height = std::exp(-20.0 * (x - Eigen::Vector3d::Constant(0.5)).squaredNorm());
     q.p += 6e4 * height, q.T += 60.0 * height;
     return q;
-  });
+  };
+  strong.solver->start(hot_middle);
   for (Case* c : {&weak, &strong}) {
     c->prepare();
     c->run();
   }
   for (const PseudoRow& row : weak.solver->rows()) CHECK(row.limited == 0.0);
-  CHECK(weak.solver->limited_cells(MPI_COMM_SELF).find("the change of velocity") == std::string::npos);
+  CHECK(weak.solver->limited_cells(Updates::all, MPI_COMM_SELF).text().find("the change of velocity") == std::string::npos);
   double most = 0.0, least_fraction = 1.0;
   for (const PseudoRow& row : strong.solver->rows()) {
     CHECK((row.limited > 0.0) == (row.fraction < 1.0));
@@ -157,11 +158,23 @@ TEST_CASE("cells whose bounds shorten an update are counted, and the worst of th
   }
   CHECK(most > 1.0);
   CHECK(most < double(strong.solver->cells()));
-  const std::string worst = strong.solver->limited_cells(MPI_COMM_SELF);
+  const std::string worst = strong.solver->limited_cells(Updates::all, MPI_COMM_SELF).text();
   INFO(worst);
   CHECK(worst.find("the change of ") == 0);
   CHECK(worst.find("block 0 cell (") != std::string::npos);
   CHECK(worst.find(fmt::format("to {:.2g} of itself", least_fraction)) != std::string::npos);
+  // Of the last update alone: nothing where it had no limit, its own place where it had.
+  CHECK(strong.solver->rows().back().limited == 0.0);
+  CHECK(strong.solver->limited_cells(Updates::last, MPI_COMM_SELF).mean.text.empty());
+  setting.march.max_steps = 1;
+  Case once = bump(setting, 1, 0);
+  once.solver->start(hot_middle);
+  once.prepare();
+  once.run();
+  CHECK(once.solver->rows().back().limited > 0.0);
+  const LimitPlace last = once.solver->limited_cells(Updates::last, MPI_COMM_SELF).mean;
+  CHECK(last.text == once.solver->limited_cells(Updates::all, MPI_COMM_SELF).mean.text);
+  CHECK(last.fraction == once.solver->rows().back().fraction);
 }
 
 // The vectors of the linear solver are made as iterations come to them. Steady marches come to all of them; a physical step keeps
