@@ -19,12 +19,11 @@ namespace {
 
 RigidMap map_of(const RotorPose& pose) { return {pose.attitude().toRotationMatrix(), pose.hub.position}; }
 
-/// Where the rotor is, in earth coordinates.
-void carry(MultiBlockGrid& grid, const RigidMap& map) {
-  for (Block& b : grid.blocks)
-    for (Eigen::Vector3d& x : b.nodes) x = map.rotation * x + map.translation;
+/// A grid without nodes where the rotor is, in earth coordinates.
+MultiBlockGrid carried(MultiBlockGrid grid, const RigidMap& map) {
   for (Connection& c : grid.connections)
     if (c.periodic) c.periodic = moved_maps(std::span(&*c.periodic, 1), map)[0];
+  return grid;
 }
 
 /// What a rotor still needs once its solver is made.
@@ -71,8 +70,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   // Seen from the rotor a steady flow stands still: nodes rest in the earth where the rotor is at the start, and only their frame
   // turns.
   now_ = before_ = {start_};
-  MultiBlockGrid placed = made_->grid;
-  if (steady()) carry(placed, map_of(start_));
+  const MultiBlockGrid placed = steady() ? carried(made_->grid, map_of(start_)) : made_->grid;
   if (told) told("tiles", 0.0);
   Tiling tiling = rotor_tiling(setup.flow, placed, made_->edges);
   const FlowOptions flow = with_default_patches(setup.flow, placed);
@@ -81,9 +79,8 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   if (rank_of_tile.empty()) rank_of_tile = ranks_by_cells(tiling, ranks);
   store_ = std::make_unique<GridStore>(std::move(tiling), std::move(rank_of_tile), rank);
   make_nodes();
-  fill_wall_distance(*store_, wall_surface(placed_walls(), placed.connections),
-                     told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
-
+  fill_wall_distances(told);
+  if (steady()) store_->carry(map_of(start_));
   made_ = rest_of(*made_);
   FlowSetting setting = flow_setting(flow, setup.air_density, setup.wind, setup.dt, setup.profile);
   const Turbine& turbine = made_->turbine;
@@ -110,7 +107,7 @@ std::unique_ptr<ResolvedRotor> ResolvedRotor::on(const runtime::World& world, co
   return rotor;
 }
 
-/// Of the tiles of this rank, and how they follow the pitch of blades: layers of the grid, made again.
+/// Of the tiles of this rank, in the rotor's frame, and how they follow the pitch of blades: layers of the grid, made again.
 void ResolvedRotor::make_nodes() {
   pitching_ = std::make_unique<BladePitching>(made_->grid, made_->radii, made_->turbine, made_->spec);
   const std::vector<char> wanted = layers_of_tiles(*store_, *made_);
@@ -129,20 +126,18 @@ void ResolvedRotor::make_nodes() {
     while (last < layers && last < first + some && wanted[std::size_t(last)]) ++last;
     GridLayers part = made_->maker->make(first, last);
     pitching_->add_rows(part, [&](int k) { return rows[std::size_t(k)] != 0; });
-    if (steady()) carry(part.grid, map_of(start_));
     store_->take(part);
     first = last - 1;
   }
   store_->end_parts(!steady());
 }
 
-std::vector<WallSurface::Face> ResolvedRotor::placed_walls() const {
-  std::vector<WallSurface::Face> faces = made_->walls;
-  const RigidMap here = map_of(start_);
-  if (steady())
-    for (WallSurface::Face& face : faces)
-      for (Eigen::Vector3d& x : face) x = here.rotation * x + here.translation;
-  return faces;
+/// In the rotor's frame, so that they are the same wherever it is.
+void ResolvedRotor::fill_wall_distances(const GridProgress& told) {
+  if (take_wall_distance(*store_, *made_->distances)) return;
+  fill_wall_distance(*store_, wall_surface(made_->walls, made_->grid.connections),
+                     told ? [&](double share) { told("wall distances", share); } : std::function<void(double)>());
+  keep_wall_distance(*store_, *made_->distances);
 }
 
 // ---- motion

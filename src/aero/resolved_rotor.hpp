@@ -111,7 +111,7 @@ class ResolvedRotor {
 
  private:
   void make_nodes();
-  std::vector<WallSurface::Face> placed_walls() const;
+  void fill_wall_distances(const GridProgress& told);
   LoadBands rows_of_faces() const;
   std::vector<SpanLoad> span_loads(std::span<const double> sums) const;
   std::vector<BlockPose> block_poses(const RotorPlace& place) const;

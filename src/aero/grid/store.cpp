@@ -272,9 +272,24 @@ void GridStore::take(const GridLayers& part) {
 }
 
 void GridStore::end_parts(bool moving) {
+#pragma omp parallel for schedule(dynamic)
   for (const int t : owned_) {
     update_metrics(*geometry_[t], tiling_.planar);
     if (moving) make_movable(*geometry_[t]);
+  }
+  fill_local_geometry();
+}
+
+void GridStore::carry(const RigidMap& map) {
+#pragma omp parallel for schedule(dynamic)
+  for (const int t : owned_) {
+    TileGeometry& g = *geometry_[t];
+    BoxView<double> x = g.nodes();
+    for_box(g.node_box, [&](int k, int j, int i) {
+      const Eigen::Vector3d moved = map.rotation * vector_at(x, k, j, i) + map.translation;
+      set_vector(x, k, j, i, moved);
+    });
+    update_metrics(g, tiling_.planar);
   }
   fill_local_geometry();
 }

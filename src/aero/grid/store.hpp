@@ -129,6 +129,8 @@ class GridStore {
   void begin_parts();
   void take(const GridLayers& part);
   void end_parts(bool moving);
+  /// Nodes of owned tiles, at rest, to where the map takes them, and what follows from them. Wall distances stay.
+  void carry(const RigidMap& map);
   /// Ghost centres and volumes beyond boundaries and from tiles of this rank; those of other ranks come by pack and unpack.
   void fill_local_geometry() { fill_local_geometry(tiling_.periodic); }
   /// With the periodic maps of a grid that has moved (moved_maps).

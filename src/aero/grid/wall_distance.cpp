@@ -153,4 +153,17 @@ void fill_wall_distance(GridStore& store, const WallSurface& wall, const std::fu
   if (stops) throw runtime::StopAsked();
 }
 
+void keep_wall_distance(const GridStore& store, WallDistances& kept) {
+  for (const int t : store.owned()) {
+    const auto distances = store[t].wall_distance_data.span();
+    kept[t].assign(distances.begin(), distances.end());
+  }
+}
+
+bool take_wall_distance(GridStore& store, const WallDistances& kept) {
+  if (!std::ranges::all_of(store.owned(), [&](int t) { return kept.contains(t); })) return false;
+  for (const int t : store.owned()) std::ranges::copy(kept.at(t), store[t].wall_distance_data.data());
+  return true;
+}
+
 }  // namespace spindrift::aero

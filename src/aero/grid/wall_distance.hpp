@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,5 +61,12 @@ void fill_wall_distance(TileGeometry& geometry, const WallSurface& wall);
 /// The same of all tiles that the store owns, on the threads of the rank; `told` hears the share that is done. Throws
 /// runtime::StopAsked, on this rank alone, where it is asked to stop meanwhile.
 void fill_wall_distance(GridStore& store, const WallSurface& wall, const std::function<void(double)>& told = {});
+
+/// By tile, for another store of the same grid; rigid motion leaves them as they are.
+using WallDistances = std::map<int, std::vector<double>>;
+/// Of all tiles that the store owns.
+void keep_wall_distance(const GridStore& store, WallDistances& kept);
+/// Fills the store with them; false, and nothing done, where a tile that it owns is missing.
+bool take_wall_distance(GridStore& store, const WallDistances& kept);
 
 }  // namespace spindrift::aero
