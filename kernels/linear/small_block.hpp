@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "kernels/base/wide.hpp"
+#include "kernels/linear/short_float.hpp"
 
 namespace spindrift::linear {
 
@@ -21,18 +22,40 @@ inline constexpr int block_overrun = 8;
 template <int n>
 struct Column {
   std::array<float, n> v;
-  static Column load(const float* from) {
+  template <class Number>
+  static Column load(const Number* from) {
     Column c;
-    std::memcpy(c.v.data(), from, sizeof c.v);
+    for (int r = 0; r < n; ++r) c.v[std::size_t(r)] = float(from[r]);
     return c;
   }
+  static Column load_alone(const float* from) { return load(from); }
   void store(float* to) const { std::memcpy(to, v.data(), sizeof v); }
 };
 template <int n>
 requires(n > 2 && n <= 8) struct Column<n> {
   Wide<float, 8> v;
-  static Column load(const float* from) { return {Wide<float, 8>::load(from)}; }
+  template <class Number>
+  static Column load(const Number* from) {
+    return {load_eight(from)};
+  }
+  /// Reads nothing beyond the n numbers.
+  static Column load_alone(const float* from) {
+#ifdef __AVX__
+    if constexpr (n == 5)
+      return {Wide<float, 8>(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from)), _mm_load_ss(from + 4), 1))};
+#endif
+    alignas(32) float all[8] = {};
+    std::memcpy(all, from, n * sizeof(float));
+    return load(all);
+  }
   void store(float* to) const {
+#ifdef __AVX__
+    if constexpr (n == 5) {  // from the register: what is read again at once would wait for a detour by the stack
+      _mm_storeu_ps(to, _mm256_castps256_ps128(v.v));
+      to[4] = _mm_cvtss_f32(_mm256_extractf128_ps(v.v, 1));
+      return;
+    }
+#endif
     alignas(32) float all[8];
     v.store(all);
     std::memcpy(to, all, n * sizeof(float));
@@ -46,6 +69,16 @@ SPINDRIFT_INLINE void add(Column<n>& y, float a, const Column<n>& x) {
     for (int r = 0; r < n; ++r) y.v[r] += a * x.v[r];
 }
 template <int n>
+SPINDRIFT_INLINE Column<n> difference(const Column<n>& a, const Column<n>& b) {
+  if constexpr (n > 2) {
+    return {a.v - b.v};
+  } else {
+    Column<n> d;
+    for (std::size_t r = 0; r < n; ++r) d.v[r] = a.v[r] - b.v[r];
+    return d;
+  }
+}
+template <int n>
 SPINDRIFT_INLINE Column<n> zero() {
   return Column<n>{};
 }
@@ -54,9 +87,10 @@ SPINDRIFT_INLINE Column<n> zero() {
 template <int n>
 struct TwoSums {
   Column<n> even = zero<n>(), odd = zero<n>();
-  /// Numbers of x are `stride` apart.
-  SPINDRIFT_INLINE void multiply_add(const float* block, const float* x, std::ptrdiff_t stride = 1) {
-    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, x[c * stride], Column<n>::load(block + c * n));
+  /// Numbers of x are `stride` apart. Numbers of the block are floats or ShortFloats, as everywhere below.
+  template <class Number, class X>
+  SPINDRIFT_INLINE void multiply_add(const Number* block, const X* x, std::ptrdiff_t stride = 1) {
+    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, float(x[c * stride]), Column<n>::load(block + c * n));
   }
   SPINDRIFT_INLINE Column<n> total() const {
     Column<n> sum = even;
@@ -66,21 +100,21 @@ struct TwoSums {
 };
 
 /// y = A x.
-template <int n>
-SPINDRIFT_INLINE void multiply(const float* block, const float* x, float* y) {
+template <int n, class Number, class X>
+SPINDRIFT_INLINE void multiply(const Number* block, const X* x, float* y) {
   TwoSums<n> sums;
   sums.multiply_add(block, x);
   sums.total().store(y);
 }
 
 /// C = A B; C is neither.
-template <int n>
-SPINDRIFT_INLINE void multiply_blocks(const float* a, const float* b, float* c) {
+template <int n, class A, class B>
+SPINDRIFT_INLINE void multiply_blocks(const A* a, const B* b, float* c) {
   for (int column = 0; column < n; ++column) multiply<n>(a, b + column * n, c + column * n);
 }
 /// C -= A B.
-template <int n>
-SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c) {
+template <int n, class A, class B>
+SPINDRIFT_INLINE void subtract_product(const A* a, const B* b, float* c) {
   for (int column = 0; column < n; ++column) {
     float y[n];
     multiply<n>(a, b + column * n, y);
@@ -90,16 +124,16 @@ SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c)
 
 /// D -= A P U, what a neighbour takes from a pivot; D may not be one of the others. Products stay in registers: through memory
 /// the narrow stores of a column are read back as wide loads, which costs more than the arithmetic.
-template <int n>
-SPINDRIFT_INLINE void subtract_product(const float* a, const float* p, const float* u, float* d) {
+template <int n, class Number>
+SPINDRIFT_INLINE void subtract_product(const Number* a, const float* p, const Number* u, float* d) {
   if constexpr (n > 2) {
     using Lanes = Wide<float, 8>;
     Lanes ac[n], pc[n];
-    for (int c = 0; c < n; ++c) ac[c] = Lanes::load(a + c * n), pc[c] = Lanes::load(p + c * n);
+    for (int c = 0; c < n; ++c) ac[c] = load_eight(a + c * n), pc[c] = Lanes::load(p + c * n);
     for (int c = 0; c < n; ++c) {
       alignas(32) float product[8];
-      Lanes even = Lanes(u[c * n]) * pc[0], odd = Lanes(u[c * n + 1]) * pc[1];
-      for (int k = 2; k < n; ++k) (k % 2 == 0 ? even : odd) += Lanes(u[c * n + k]) * pc[k];
+      Lanes even = Lanes(float(u[c * n])) * pc[0], odd = Lanes(float(u[c * n + 1])) * pc[1];
+      for (int k = 2; k < n; ++k) (k % 2 == 0 ? even : odd) += Lanes(float(u[c * n + k])) * pc[k];
       (even + odd).store(product);
       even = Lanes(product[0]) * ac[0], odd = Lanes(product[1]) * ac[1];
       for (int k = 2; k < n; ++k) (k % 2 == 0 ? even : odd) += Lanes(product[k]) * ac[k];

@@ -71,11 +71,11 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
                          box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence, kind.eddies)) +
                          (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
-  double matrix = double(linear::StencilMatrix<5>::size(cells, directions)), vectors = kind.krylov_steps + 1;
+  double matrix = double(MeanMatrix::size(cells, directions)), vectors = kind.krylov_steps + 1;
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, directions));
   if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, directions));
   if (kind.flexible) vectors += kind.krylov_steps;
-  if (kind.coarse) matrix += 25.0 * double(cells.count());  // blocks to cells of the same group, added up
+  if (kind.coarse) matrix += 12.5 * double(cells.count());  // blocks to cells of the same group, added up, in half floats
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
   // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
   bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +

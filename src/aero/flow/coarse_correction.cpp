@@ -38,7 +38,7 @@ struct TileGroups {
   std::vector<std::array<double, block_size>> values;
   std::vector<std::array<int, 7>> inside;  ///< by group: entry of itself, then of the group across each side, where of this tile
   std::array<std::vector<int>, 6> beyond;  ///< by face of a side of the tile: entry; -1 where a boundary
-  std::vector<float> sums;                 ///< [cell][25]: diagonal and all blocks to cells of the same group
+  std::vector<linear::ShortFloat> sums;    ///< [cell][25]: diagonal and all blocks to cells of the same group
   int group(int k, int j, int i) const {
     return piece_of[0][std::size_t(i)] + piece_of[1][std::size_t(j)] + piece_of[2][std::size_t(k)];
   }
@@ -181,28 +181,30 @@ struct CoarseCorrection final : IluAfterCoarse {
 
   std::ptrdiff_t fill(FlowTile& tile, bool anew) override {
     TileGroups& t = of(tile);
-    const linear::StencilMatrix<5> a = tile.mean();
+    const MeanMatrix a = tile.mean();
     if (anew)
       for (auto& v : t.values) v.fill(0.0);
     walk(
         tile, t,
         [&](std::ptrdiff_t cell, int group, const std::array<int, 6>& entries) {
-          float* sum = t.sums.data() + cell * block_size;
-          std::copy_n(a.block(cell, 0), block_size, sum);
+          std::array<float, block_size> sum;
+          std::copy_n(a.block(cell, a.diagonal), block_size, sum.data());
           for (int side = 0; side < 2 * tile.directions; ++side) {
             if (entries[std::size_t(side)] != -2) continue;
-            const float* block = a.block(cell, linear::StencilMatrix<5>::sides + side);
-            for (int e = 0; e < block_size; ++e) sum[e] += block[e];
+            const auto* block = a.side(cell, side);
+            for (int e = 0; e < block_size; ++e) sum[std::size_t(e)] += float(block[e]);
           }
+          std::ranges::transform(sum, t.sums.begin() + cell * block_size,
+                                 [](float number) { return linear::ShortFloat(number); });
           if (!anew) return;
           auto& value = t.values[std::size_t(t.inside[std::size_t(group)][0])];
-          for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(sum[e]);
+          for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(sum[std::size_t(e)]);
         },
         [&](std::ptrdiff_t cell, int side, int entry) {
           if (!anew) return;
-          const float* block = a.block(cell, linear::StencilMatrix<5>::sides + side);
+          const auto* block = a.side(cell, side);
           auto& value = t.values[std::size_t(entry)];
-          for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(block[e]);
+          for (int e = 0; e < block_size; ++e) value[std::size_t(e)] += double(float(block[e]));
         });
     if (!anew) return -1;
     // Neighbours through a rotational period: their velocities turn before the block acts.
@@ -318,7 +320,7 @@ struct CoarseCorrection final : IluAfterCoarse {
   void apply_coarse(const Piece& piece) override {
     FlowTile& tile = *piece.tile;
     TileGroups& t = of(tile);
-    const linear::StencilMatrix<5> a = tile.mean();
+    const MeanMatrix a = tile.mean();
     // Changes of the groups of this tile and of their neighbours, as floats.
     std::vector<std::array<float, 8>> y(t.columns.size());
     for (std::size_t c = 0; c < y.size(); ++c) {
@@ -346,9 +348,7 @@ struct CoarseCorrection final : IluAfterCoarse {
           sums.multiply_add(t.sums.data() + cell * block_size, y[column_of(t.inside[std::size_t(group)][0])].data());
           in_sums = cell;
         },
-        [&](std::ptrdiff_t cell, int side, int entry) {
-          sums.multiply_add(a.block(cell, linear::StencilMatrix<5>::sides + side), y[column_of(entry)].data());
-        });
+        [&](std::ptrdiff_t cell, int side, int entry) { sums.multiply_add(a.side(cell, side), y[column_of(entry)].data()); });
     finish();
     const std::size_t mean = std::size_t(tile.box.count()) * width;
     if (piece.z != piece.v) std::copy(piece.v + mean, piece.v + tile.vector_size(), piece.z + mean);

@@ -19,6 +19,8 @@
 namespace spindrift::aero {
 
 inline constexpr int mean_unknowns = 5;
+/// Of the mean flow: 532 bytes a cell in place of the 832 of floats, and a third less to read for each Krylov vector.
+using MeanMatrix = linear::StencilMatrix<mean_unknowns, linear::ShortFloat>;
 
 /// A window of the tile where a condition acts.
 struct FlowBoundary {
@@ -86,7 +88,7 @@ struct FlowTile {
   BoxView<double> trial_view() { return {trial.data(), cells}; }
   BoxView<double> gradient_view() { return {gradients.data(), gradient_box}; }
   BoxView<float> direction_view() { return {direction.data(), gradient_box}; }
-  linear::StencilMatrix<5> mean() { return {mean_matrix.data(), box, directions}; }
+  MeanMatrix mean() { return {mean_matrix.data(), box, directions}; }
   template <int n>
   linear::StencilMatrix<n> model() {
     return {turbulence_matrix.data(), box, directions};

@@ -16,23 +16,23 @@ namespace {
 /// One of the two ways of kernels/linear, on the blocks of the mean flow and on those of the turbulence model.
 struct Ilu {
   static constexpr std::string_view name = "block_ilu";
-  template <int n>
-  static std::ptrdiff_t factor(const linear::StencilMatrix<n>& a) {
+  template <class Matrix>
+  static std::ptrdiff_t factor(const Matrix& a) {
     return linear::factor(a);
   }
-  template <int n>
-  static void solve(const linear::StencilMatrix<n>& a, const float* r, float* z) {
+  template <class Matrix>
+  static void solve(const Matrix& a, const float* r, float* z) {
     linear::solve(a, r, z);
   }
 };
 struct Jacobi {
   static constexpr std::string_view name = "block_jacobi";
-  template <int n>
-  static std::ptrdiff_t factor(const linear::StencilMatrix<n>& a) {
+  template <class Matrix>
+  static std::ptrdiff_t factor(const Matrix& a) {
     return linear::factor_diagonal(a);
   }
-  template <int n>
-  static void solve(const linear::StencilMatrix<n>& a, const float* r, float* z) {
+  template <class Matrix>
+  static void solve(const Matrix& a, const float* r, float* z) {
     linear::solve_diagonal(a, r, z);
   }
 };

@@ -38,14 +38,20 @@ SPINDRIFT_INLINE void add_viscosity(gas::FluxJacobian<Row>& b, const ImplicitSet
   b.right = gas::combine(b.right, 1.0, by_right);
 }
 
-/// Puts the lanes of a block into column-major float blocks of consecutive cells: to[cell] = sign * block, or += where asked.
-template <bool accumulate>
-SPINDRIFT_INLINE void scatter(const float (&lanes)[25][8], int first, int last, float sign, float* to,
-                              std::ptrdiff_t cell_stride) {
+/// Adds the lanes of a block to the diagonals of consecutive cells, column by column; `anew`: puts them there.
+template <bool anew>
+SPINDRIFT_INLINE void to_diagonals(const float (&lanes)[25][8], int first, int last, float sign, const MeanMatrix& a,
+                                   std::ptrdiff_t cell) {
   for (int lane = first; lane < last; ++lane) {
-    float* at = to + lane * cell_stride;
-    for (int e = 0; e < 25; ++e) at[e] = (accumulate ? at[e] : 0.0f) + sign * lanes[e][lane];
+    float* at = a.block(cell + lane, a.diagonal);
+    for (int e = 0; e < 25; ++e) at[e] = (anew ? 0.0f : at[e]) + sign * lanes[e][lane];
   }
+}
+/// Puts them into the blocks of a side; the diagonals are there already.
+SPINDRIFT_INLINE void to_sides(const float (&lanes)[25][8], int first, int last, float sign, const MeanMatrix& a,
+                               std::ptrdiff_t cell, int side) {
+  for (int lane = first; lane < last; ++lane)
+    for (int e = 0; e < 25; ++e) a.put_side(cell + lane, side, e, sign * lanes[e][lane]);
 }
 SPINDRIFT_INLINE void to_lanes(const Block& b, const double (&scale)[5][5], float (&lanes)[25][8]) {
   for (int c = 0; c < 5; ++c)
@@ -67,10 +73,10 @@ struct Entries {
 void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, const ImplicitSetting& s, const Entries& entries) {
   const TileGeometry& g = *tile.geometry;
   const linear::CellBox& box = tile.box;
-  const linear::StencilMatrix<5> a = tile.mean();
+  const MeanMatrix a = tile.mean();
   const int extent[3] = {box.ni, box.nj, box.nk};
   const int nk = box.nk + (d == 2), nj = box.nj + (d == 1), ni = box.ni + (d == 0);
-  const std::ptrdiff_t step = tile.cells.stride(d), cell_stride = a.cell_stride(), back = box.stride(d);
+  const std::ptrdiff_t step = tile.cells.stride(d), back = box.stride(d);
   const std::size_t component = std::size_t(tile.cells.component);
   alignas(64) float l[25][8], r[25][8];
   for (int k = 0; k < nk; ++k)
@@ -116,34 +122,37 @@ void add_faces(FlowTile& tile, const double* state, const double* eddy, int d, c
         // Right of the face: cells that exist; left of it: the same one step back.
         const int right_end = d == 0 ? std::min(8, box.ni - i) : (n < extent[d] ? used : 0);
         if (right_end > 0) {
-          scatter<true>(r, 0, right_end, -1.0f, a.block(right, 0), cell_stride);
-          scatter<false>(l, 0, right_end, -1.0f, a.block(right, 2 + 2 * d), cell_stride);
+          to_diagonals<false>(r, 0, right_end, -1.0f, a, right);
+          to_sides(l, 0, right_end, -1.0f, a, right, 2 * d);
         }
         const int left_first = d == 0 && i == 0 ? 1 : 0, left_end = d > 0 && n == 0 ? 0 : used;
         if (left_end > left_first) {
-          scatter<true>(l, left_first, left_end, 1.0f, a.block(right - back, 0), cell_stride);
-          scatter<false>(r, left_first, left_end, 1.0f, a.block(right - back, 3 + 2 * d), cell_stride);
+          to_diagonals<false>(l, left_first, left_end, 1.0f, a, right - back);
+          to_sides(r, left_first, left_end, 1.0f, a, right - back, 2 * d + 1);
         }
       }
 }
 
 /// What a cell beyond a boundary adds to the diagonal, as its state follows that of the cell inside; it is no neighbour then.
 void fold_boundaries(FlowTile& tile, const Entries& entries, const std::array<double, 3>& wind) {
-  const linear::StencilMatrix<5> a = tile.mean();
+  const MeanMatrix a = tile.mean();
   for (const FlowBoundary& boundary : tile.boundaries) {
     const BoundaryCondition& condition = *boundary.condition;
     const Side side = boundary.where.side;
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const std::ptrdiff_t cell = (std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i;
-      float *diagonal = a.block(cell, 0), *beyond = a.block(cell, 2 + int(side));
+      float* diagonal = a.block(cell, a.diagonal);
+      auto* beyond = a.side(cell, int(side));
+      float numbers[25];
+      std::copy_n(beyond, 25, numbers);
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
-      if (condition.fold != nullptr) condition.fold({diagonal, beyond, f, wind, boundary.temperature.has_value()});
+      if (condition.fold != nullptr) condition.fold({diagonal, numbers, f, wind, boundary.temperature.has_value()});
       if (is_closed(condition)) {  // pressure of the cell on the wall
         const double n[3] = {f.nx, f.ny, f.nz};
         for (int c = 1; c < 4; ++c) diagonal[c] += float(n[c - 1] * f.area * entries.scale[c][0]);
         diagonal[4] += float(f.speed * f.area * entries.scale[4][0]);
       }
-      std::fill_n(beyond, 25, 0.0f);
+      std::fill_n(beyond, 25, linear::ShortFloat());
     });
   }
 }
@@ -201,7 +210,7 @@ void sweep_rates(FlowTile& tile, const double* state, const ImplicitSetting& s) 
 
 void sweep_jacobian(FlowTile& tile, const double* state, const double* eddy, double cfl, const ImplicitSetting& s) {
   const Entries entries(s.scales);
-  const linear::StencilMatrix<5> a = tile.mean();
+  const MeanMatrix a = tile.mean();
   const TileGeometry& g = *tile.geometry;
   alignas(64) float lanes[25][8];
   for_rows(tile.box, [&](int k, int j) {
@@ -212,8 +221,8 @@ void sweep_jacobian(FlowTile& tile, const double* state, const double* eddy, dou
       gas::Block5<Row> block = time_block(s, q, pseudo, physical);
       if (s.omega != std::array<double, 3>{}) add_turning(block, s, q, Row::load(g.volume_data.data() + g.cell_box.at(k, j, i)));
       to_lanes(block, entries.scale, lanes);
-      scatter<false>(lanes, 0, std::min(8, tile.box.ni - i), 1.0f,
-                     a.block((std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i, 0), a.cell_stride());
+      to_diagonals<true>(lanes, 0, std::min(8, tile.box.ni - i), 1.0f, a,
+                         (std::ptrdiff_t(k) * tile.box.nj + j) * tile.box.ni + i);
     }
   });
   for (int d = 0; d < tile.directions; ++d) add_faces(tile, state, eddy, d, s, entries);

@@ -253,11 +253,11 @@ struct SweepsOf : ClosuresOf<Model> {
                 const int entry = m * n + m;
                 if (place < extent[d]) {  // the face's mass leaves with the left value where forward
                   a.block(right, 0)[entry] += float(unit[m][m] * (-backward + w));
-                  a.block(right, 2 + 2 * d)[entry] = float(-unit[m][m] * (forward + w));
+                  a.side(right, 2 * d)[entry] = float(-unit[m][m] * (forward + w));
                 }
                 if (place > 0) {
                   a.block(left, 0)[entry] += float(unit[m][m] * (forward + w));
-                  a.block(left, 3 + 2 * d)[entry] = float(unit[m][m] * (backward - w));
+                  a.side(left, 2 * d + 1)[entry] = float(unit[m][m] * (backward - w));
                 }
               }
             }
@@ -266,7 +266,7 @@ struct SweepsOf : ClosuresOf<Model> {
       const Side side = boundary.where.side;
       for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
-        float *diagonal = a.block(cell, 0), *beyond = a.block(cell, 2 + int(side));
+        float *diagonal = a.block(cell, 0), *beyond = a.side(cell, int(side));
         // A resolved wall's ghost has the opposite sign; what an open boundary brings in is given.
         const bool sticks = aero::sticks(*boundary.condition) && !(n == 2 && boundary.condition->wall_law);
         const float follow = sticks ? -1.0f : is_wall(*boundary.condition) ? 1.0f : 0.0f;
@@ -276,7 +276,8 @@ struct SweepsOf : ClosuresOf<Model> {
     if constexpr (n == 2)
       for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
-        for (int slot = 0; slot < 2 + 2 * tile.directions; ++slot) a.block(cell, slot)[1] = a.block(cell, slot)[3] = 0.0f;
+        a.block(cell, a.diagonal)[1] = 0.0f;
+        for (int side = 0; side < 2 * tile.directions; ++side) a.side(cell, side)[1] = a.side(cell, side)[3] = 0.0f;
         const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
         const double time = tile.rate.data()[tile.inner.at(k, j, i)] / cfl + volume * s.physical_rate;
         a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * law.omega));

@@ -66,7 +66,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
     t.rate = AlignedArray<double>(t.inner.size(1));
     if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
     if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
-    t.mean_matrix = AlignedArray<float>(linear::StencilMatrix<5>::size(t.box, t.directions));
+    t.mean_matrix = AlignedArray<float>(MeanMatrix::size(t.box, t.directions));
     if (t.turbulence == 1) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<1>::size(t.box, t.directions));
     if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));
     t.direction = AlignedArray<float>(t.gradient_box.size(unknowns));

@@ -177,15 +177,20 @@ void air() {
   jacobian.print("jacobian_roe_low_mach"), turbulence.print("turbulence");
 }
 
-template <int n>
+template <int n, class SideNumber = float>
 void elimination(const char* name) {
   using namespace linear;
+  using Matrix = StencilMatrix<n, SideNumber>;
   const CellBox box{7, 5, 4};
-  std::vector<float> numbers(StencilMatrix<n>::size(box, 3)), r(std::size_t(box.count()) * n + 16), z(r.size());
+  std::vector<float> numbers(Matrix::size(box, 3)), r(std::size_t(box.count()) * n + 16), z(r.size());
   for (float& x : numbers) x = float(between(-0.1, 0.1));
-  const StencilMatrix<n> a{numbers.data(), box, 3};
-  for (std::ptrdiff_t cell = 0; cell < box.count(); ++cell)
-    for (int c = 0; c < n; ++c) a.block(cell, StencilMatrix<n>::diagonal)[c * n + c] += 2.0f;
+  const Matrix a{numbers.data(), box, 3};
+  for (std::ptrdiff_t cell = 0; cell < box.count(); ++cell) {
+    if constexpr (!std::same_as<SideNumber, float>)
+      for (int side = 0; side < 6; ++side)
+        for (int e = 0; e < n * n; ++e) a.put_side(cell, side, e, float(between(-0.1, 0.1)));
+    for (int c = 0; c < n; ++c) a.block(cell, a.diagonal)[c * n + c] += 2.0f;
+  }
   for (float& x : r) x = float(between(-1.0, 1.0));
   Digest d;
   d.add(double(factor(a)));
@@ -261,4 +266,5 @@ int main() {
   krylov();
   sea_state();
   filaments();
+  elimination<5, linear::ShortFloat>("block_ilu_5_short");
 }
