@@ -418,7 +418,7 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
     }
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // whose heap is not the one that is asked
+#if !defined(SPINDRIFT_SANITIZED)  // whose heap is not the one that is asked
 TEST_CASE("a rank has the air of its own tiles, and not a number for each cell of all others", "[rotor][fast]") {
   const auto in_use = [] {
     const struct mallinfo2 now = mallinfo2();

@@ -4,7 +4,7 @@
 
 #include "tests/src/bodies/platform.hpp"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(SPINDRIFT_SANITIZED)  // sanitizers have a malloc of their own
 
 namespace {
 long allocations = 0;  // tests run one at a time
