@@ -122,6 +122,14 @@ std::vector<FirstCell> blade_cells(const ResolvedRotorSetup& setup, const Turbin
   return cells;
 }
 
+/// Area of one side between two radii.
+double planform_between(const Planform& blade, double low, double high) {
+  constexpr int pieces = 16;
+  double sum = 0.0;
+  for (int n = 0; n < pieces; ++n) sum += interpolate_linear(blade.span, blade.chord, low + (n + 0.5) / pieces * (high - low));
+  return sum / pieces * (high - low);
+}
+
 /// By the nodes of some coaxial surfaces, each for the part of a blade about it: growth too. Throws NumericalFailure where they
 /// cannot be made.
 std::vector<FirstCell> blade_lines(const ResolvedRotorSetup& setup, const Turbine& turbine) {
@@ -133,18 +141,21 @@ std::vector<FirstCell> blade_lines(const ResolvedRotorSetup& setup, const Turbin
   for (int n = 0; n < surfaces; ++n) {
     const int low = span * n / surfaces, high = span * (n + 1) / surfaces;
     const Plane surface = maker.surface((low + high) / 2);
-    const double length = maker.radius(high) - maker.radius(low), speed = flow.speed(surface.r);
+    const double both_sides = 2.0 * planform_between(turbine.planform, maker.radius(low), maker.radius(high)),
+                 speed = flow.speed(surface.r);
     const int round = surface.ring.round / step, layers = surface.ring.layers / step;
     const auto node = [&](int i, int j) { return surface.ring_nodes[surface.ring.at(i * step, j * step)]; };
     const Eigen::Vector2d nose = node(round / 2, 0), to_tail = node(0, 0) - nose;
     const double chord = to_tail.norm();
+    double perimeter = 0.0;
+    for (int i = 0; i < round; ++i) perimeter += (node(i + 1, 0) - node(i, 0)).norm();
     for (int i = 0; i < round; ++i) {
       const auto height = [&](int j) { return (node(i, j + 1) - node(i, j)).norm(); };
       const double x = std::max((node(i, 0) - nose).dot(to_tail) / chord, 0.01 * chord), centre = 0.5 * height(0);
       const double y_plus = plate_y_plus(speed, x, flow.nu, centre);
       LineGrowth growth(reach_of_growth(y_plus, centre));
       for (int j = 0; j < layers && !growth.done(); ++j) growth.add(height(j));
-      cells.push_back({0.5 * (node(i + 1, 0) - node(i - 1, 0)).norm() * length, y_plus, growth.largest()});
+      cells.push_back({(node(i + 1, 0) - node(i, 0)).norm() / perimeter * both_sides, y_plus, growth.largest()});
     }
   }
   return cells;

@@ -187,8 +187,9 @@ TEST_CASE("the y+ expected on a rotor's blades is that asked of its grid, and sa
   CHECK(doubts_of(expected_first_cells(s), "").size() == 1);  // by the law, which wants 15
   s.grid = {}, s.flow.blades = Condition::no_slip;
   CHECK(suits_wall_law(s));
-  REQUIRE(doubts_of(expected_first_cells(s), "").size() == 1);
+  REQUIRE(doubts_of(expected_first_cells(s), "").size() == 2);
   CHECK_THAT(doubts_of(expected_first_cells(s), "")[0], Contains("resolved walls want 0 to 5"));
+  CHECK_THAT(doubts_of(expected_first_cells(s), "")[1], Contains("grow from layer to layer"));
   s.rotor.speed = 0.0;
   CHECK(suits_wall_law(s));  // at an assumed speed
   for (const char* without : {"none", "les_wale"}) {
