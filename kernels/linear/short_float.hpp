@@ -1,5 +1,5 @@
-// A float cut to 16 bits: its sign, its exponent and the first 8 bits of its mantissa, with an error of at most 1/256 of half a
-// step (2^-9). The range is that of floats, so nothing needs scaling. For the blocks of neighbours in a matrix that is read from
+// A float of 16 bits (bfloat16): sign, exponent and 8 significant bits, rounded by at most 2^-9 of the number. The range
+// is that of floats, so nothing needs scaling. For the blocks of neighbours in a matrix that is read from
 // memory for every product (stencil_matrix.hpp). Integer arithmetic only: the same bits on every processor.
 // Tested in tests/kernels/linear/short_float_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

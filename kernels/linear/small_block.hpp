@@ -22,10 +22,9 @@ inline constexpr int block_overrun = 8;
 template <int n>
 struct Column {
   std::array<float, n> v;
-  template <class Number>
-  static Column load(const Number* from) {
+  static Column load(const float* from) {
     Column c;
-    for (int r = 0; r < n; ++r) c.v[std::size_t(r)] = float(from[r]);
+    std::memcpy(c.v.data(), from, sizeof c.v);
     return c;
   }
   static Column load_alone(const float* from) { return load(from); }
@@ -87,10 +86,10 @@ SPINDRIFT_INLINE Column<n> zero() {
 template <int n>
 struct TwoSums {
   Column<n> even = zero<n>(), odd = zero<n>();
-  /// Numbers of x are `stride` apart. Numbers of the block are floats or ShortFloats, as everywhere below.
-  template <class Number, class X>
-  SPINDRIFT_INLINE void multiply_add(const Number* block, const X* x, std::ptrdiff_t stride = 1) {
-    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, float(x[c * stride]), Column<n>::load(block + c * n));
+  /// Numbers of x are `stride` apart; those of the block are floats, or for n > 2 ShortFloats.
+  template <class Number>
+  SPINDRIFT_INLINE void multiply_add(const Number* block, const float* x, std::ptrdiff_t stride = 1) {
+    for (int c = 0; c < n; ++c) add(c % 2 == 0 ? even : odd, x[c * stride], Column<n>::load(block + c * n));
   }
   SPINDRIFT_INLINE Column<n> total() const {
     Column<n> sum = even;
@@ -100,21 +99,21 @@ struct TwoSums {
 };
 
 /// y = A x.
-template <int n, class Number, class X>
-SPINDRIFT_INLINE void multiply(const Number* block, const X* x, float* y) {
+template <int n>
+SPINDRIFT_INLINE void multiply(const float* block, const float* x, float* y) {
   TwoSums<n> sums;
   sums.multiply_add(block, x);
   sums.total().store(y);
 }
 
 /// C = A B; C is neither.
-template <int n, class A, class B>
-SPINDRIFT_INLINE void multiply_blocks(const A* a, const B* b, float* c) {
+template <int n>
+SPINDRIFT_INLINE void multiply_blocks(const float* a, const float* b, float* c) {
   for (int column = 0; column < n; ++column) multiply<n>(a, b + column * n, c + column * n);
 }
 /// C -= A B.
-template <int n, class A, class B>
-SPINDRIFT_INLINE void subtract_product(const A* a, const B* b, float* c) {
+template <int n>
+SPINDRIFT_INLINE void subtract_product(const float* a, const float* b, float* c) {
   for (int column = 0; column < n; ++column) {
     float y[n];
     multiply<n>(a, b + column * n, y);

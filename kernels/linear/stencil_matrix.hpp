@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <cstddef>
 
 #include "kernels/linear/small_block.hpp"
@@ -40,7 +39,7 @@ struct StencilMatrix {
   void put_side(std::ptrdiff_t cell, int s, int element, float value) const {
     SideNumber& number = side(cell, s)[element];
     number = SideNumber(value);
-    if constexpr (!std::same_as<SideNumber, float>) block(cell, diagonal)[element] += value - float(number);
+    block(cell, diagonal)[element] += value - float(number);
   }
 
  private:

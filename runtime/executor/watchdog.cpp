@@ -7,14 +7,9 @@
 
 #include "runtime/mpi/heartbeat.hpp"
 
-#if defined(__SANITIZE_THREAD__)
+#ifdef SPINDRIFT_SANITIZED
 #define SPINDRIFT_LOOKS_ON __attribute__((no_sanitize("thread")))
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define SPINDRIFT_LOOKS_ON __attribute__((no_sanitize("thread")))
-#endif
-#endif
-#ifndef SPINDRIFT_LOOKS_ON
+#else
 #define SPINDRIFT_LOOKS_ON
 #endif
 

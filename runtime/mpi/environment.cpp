@@ -10,12 +10,7 @@
 
 #include "runtime/trace/clock.hpp"
 
-#if defined(__has_feature)  // clang's
-#if __has_feature(address_sanitizer)
-#define SPINDRIFT_LEAK_CHECKED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(SPINDRIFT_LEAK_CHECKED)
+#ifdef SPINDRIFT_SANITIZED
 /// Open MPI unloads its modules before the leak checker looks, which then cannot tell whose leaks it found (ci/lsan.supp).
 extern "C" int dlclose(void*) { return 0; }
 #endif

@@ -75,7 +75,8 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, directions));
   if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, directions));
   if (kind.flexible) vectors += kind.krylov_steps;
-  if (kind.coarse) matrix += 12.5 * double(cells.count());  // blocks to cells of the same group, added up, in half floats
+  if (kind.coarse)
+    matrix += 25.0 * sizeof(linear::ShortFloat) / narrow * double(cells.count());  // blocks within a group, added up
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
   // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
   bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +

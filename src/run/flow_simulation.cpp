@@ -270,9 +270,9 @@ void FlowSimulation::write_at_end(std::int64_t window) {
     doubts_.push_back(fmt::format("air: {}", doubt));
     spdlog::warn(doubts_.back());
   }
-  const std::string limits = limits_.text(fmt::format("{} pseudo-steps", limits_.counted()), air_.solver().cells(),
-                                          air_.solver().limited_cells(aero::Updates::all, world_.comm));
-  if (!limits.empty()) spdlog::info("air: {}", limits);
+  if (limits_.shortened() + limits_.clipped() > 0)
+    spdlog::info("air: {}", limits_.text(fmt::format("{} pseudo-steps", limits_.counted()), air_.solver().cells(),
+                                         air_.solver().limited_cells(aero::Updates::all, world_.comm)));
   if (air_.actuator() && windows_ > 0) coupling::write_span(world_, air_.actuator()->span_loads(), directory_);
   if (!air_.rotor() || windows_ == 0) return;  // a restart that has nothing left to do leaves what there is
   while (last_rows_.size() > averaged(window)) last_rows_.pop_front();

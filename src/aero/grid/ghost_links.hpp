@@ -43,8 +43,7 @@ inline std::size_t packed_size(const GhostLink& link, int components, int layers
 
 namespace detail {
 /// Calls body(offset in the receiver, offset in the donor, count, donor's stride) for each run of ghost cells, in one fixed
-/// order: the receiver's smallest strides innermost. Runs go along the receiver's row where the window lies along i; where it
-/// lies across, from layer to layer, whose cells share lines of memory.
+/// order: the receiver's smallest strides innermost. Runs go along the receiver's row where the window lies along i.
 template <class Body>
 void for_ghosts(const GhostLink& link, const BoxLayout& to, const BoxLayout& from, int layers, Body&& body) {
   const int across = direction_of(link.side);
@@ -53,18 +52,6 @@ void for_ghosts(const GhostLink& link, const BoxLayout& to, const BoxLayout& fro
   const auto donor_step = [&](int d) { return link.donor.sign(d) * from.stride(link.donor.target(d)); };
   const bool end = at_end(link.side);
   const std::ptrdiff_t step_a = donor_step(a), to_a = to.stride(a);
-  if (across == 0 && layers > 1) {
-    const std::ptrdiff_t outwards = end ? 1 : -1, step_outwards = outwards * donor_step(across);
-    for (int v = link.low[1]; v < link.high[1]; ++v) {
-      Index ghost{};
-      ghost[across] = end ? extent : -1, ghost[a] = link.low[0], ghost[b] = v;
-      const Index donor = link.donor(ghost);
-      std::ptrdiff_t at_to = to.at(ghost[2], ghost[1], ghost[0]), at_from = from.at(donor[2], donor[1], donor[0]);
-      for (int u = link.low[0]; u < link.high[0]; ++u, at_to += to_a, at_from += step_a)
-        body(at_to, at_from, layers, outwards, step_outwards);
-    }
-    return;
-  }
   for (int layer = 0; layer < layers; ++layer) {
     for (int v = link.low[1]; v < link.high[1]; ++v) {
       Index ghost{};

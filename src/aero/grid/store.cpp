@@ -167,14 +167,19 @@ void move_nodes(TileGeometry& g, const std::function<Eigen::Vector3d(const Eigen
   for_box(g.node_box, [&](int k, int j, int i) { set_vector(x, k, j, i, position(vector_at(reference, k, j, i))); });
 }
 
-void move_rigidly(TileGeometry& g, const RigidMap& map) {
-  const BoxView<const double> reference{g.history->reference_nodes.data(), g.node_box};
+namespace {
+/// Nodes to where the map takes these.
+void carry_nodes(TileGeometry& g, const double* nodes, const RigidMap& map) {
+  const BoxView<const double> from{nodes, g.node_box};
   BoxView<double> x = g.nodes();
   for_box(g.node_box, [&](int k, int j, int i) {
-    const Eigen::Vector3d moved = map.rotation * vector_at(reference, k, j, i) + map.translation;
+    const Eigen::Vector3d moved = map.rotation * vector_at(from, k, j, i) + map.translation;
     set_vector(x, k, j, i, moved);
   });
 }
+}  // namespace
+
+void move_rigidly(TileGeometry& g, const RigidMap& map) { carry_nodes(g, g.history->reference_nodes.data(), map); }
 
 void update_sweeps(TileGeometry& g, bool planar) {
   const BoxView<const double> now = g.nodes(), old{g.history->old_nodes.data(), g.node_box};
@@ -283,13 +288,8 @@ void GridStore::end_parts(bool moving) {
 void GridStore::carry(const RigidMap& map) {
 #pragma omp parallel for schedule(dynamic)
   for (const int t : owned_) {
-    TileGeometry& g = *geometry_[t];
-    BoxView<double> x = g.nodes();
-    for_box(g.node_box, [&](int k, int j, int i) {
-      const Eigen::Vector3d moved = map.rotation * vector_at(x, k, j, i) + map.translation;
-      set_vector(x, k, j, i, moved);
-    });
-    update_metrics(g, tiling_.planar);
+    carry_nodes(*geometry_[t], geometry_[t]->node_data.data(), map);
+    update_metrics(*geometry_[t], tiling_.planar);
   }
   fill_local_geometry();
 }
