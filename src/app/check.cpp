@@ -32,6 +32,7 @@
 #include "src/bodies/extent.hpp"
 #include "src/coupling/campbell.hpp"
 #include "src/coupling/doubts.hpp"
+#include "src/coupling/first_cells.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/limits.hpp"
@@ -39,7 +40,6 @@
 #include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/coupling/start.hpp"
-#include "src/run/first_cells.hpp"
 #include "src/scene/angle_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
@@ -386,7 +386,7 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
   fmt::print("  {:<22}{} in {} sector{}, {} rows of faces along each blade\n", "cells", size.cells, size.sectors,
              size.sectors == 1 ? ", which follows the hub along the axis only" : "s", size.stations);
   print_far_sides(setup.grid);
-  print_first_cells(expected_first_cells(setup), "the blade's chord", run::more_layers(s));
+  print_first_cells(expected_first_cells(setup), "the blade's chord", coupling::more_layers(s));
   const bool strong = is_strong(s.coupling.scheme);
   return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
@@ -404,7 +404,7 @@ void print_resolved_rotor(const std::string& source, const coupling::Scenario& s
   print_far_sides(setup.grid);
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
-  print_first_cells(expected_first_cells(setup), "the blade's chord", run::more_layers(s));
+  print_first_cells(expected_first_cells(setup), "the blade's chord", coupling::more_layers(s));
   const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
@@ -577,7 +577,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);
-    print_first_cells(first_cells_of(scenario, grid), "their length", run::more_layers(scenario));
+    print_first_cells(first_cells_of(scenario, grid), "their length", coupling::more_layers(scenario));
     const double start_s = processor_seconds() - begin_s;
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},

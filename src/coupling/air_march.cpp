@@ -12,6 +12,7 @@
 #include "runtime/trace/ledger.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/coupling/columns.hpp"
+#include "src/coupling/first_cells.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/retries.hpp"
 
@@ -219,7 +220,8 @@ void MarchingAir::end_window() {
 }
 
 AirSide::Account MarchingAir::account() const {
-  Account account{{{"shortened_windows", limits_.shortened()}, {"clipped_windows", limits_.clipped()}}, {}};
+  Account account{{{"shortened_windows", limits_.shortened()}, {"clipped_windows", limits_.clipped()}}, {}, {}};
+  for (const std::string& doubt : doubts_of_walls(*solver_, scenario(), world_)) account.doubts.push_back("air: " + doubt);
   const std::string text =
       limits_.text(fmt::format("the last pseudo-steps of {} windows", limits_.counted()), solver_->cells(), worst_limits_);
   if (!text.empty()) account.sentences.push_back("air: " + text);

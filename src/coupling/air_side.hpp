@@ -83,10 +83,10 @@ class AirSide {
   virtual void write_span() {}
   /// A window has ended well: its state is what the next one goes on from. Collective.
   virtual void end_window() {}
-  /// Of the run at its end: counts into the summary, sentences for the log. Collective.
+  /// Of the run at its end: counts and doubts of its loads into the summary, sentences for the log. Collective.
   struct Account {
     std::vector<std::pair<std::string, std::int64_t>> counts;
-    std::vector<std::string> sentences;
+    std::vector<std::string> doubts, sentences;
   };
   virtual Account account() const { return {}; }
   /// Sentences for the log since it was last asked; those that begin with "warning: " warn.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/run/first_cells.hpp"
+#include "src/coupling/first_cells.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "src/coupling/flow_scene.hpp"
 #include "src/io/collective.hpp"
 
-namespace spindrift::run {
+namespace spindrift::coupling {
 
 namespace {
 
@@ -39,7 +39,7 @@ aero::FirstCells first_cells(const aero::FlowSolver& solver, const runtime::Worl
 }
 
 /// What growth does was measured on sections: of a rotor it is doubted and ends no run.
-std::string why_unresolved(const aero::FirstCells& cells, const coupling::Scenario& scenario) {
+std::string why_unresolved(const aero::FirstCells& cells, const Scenario& scenario) {
   constexpr double log_layer = 30.0;
   if (const double off = share_outside(cells.resolved, 0.0, log_layer); off > 0.5)
     return fmt::format(
@@ -56,19 +56,18 @@ std::string why_unresolved(const aero::FirstCells& cells, const coupling::Scenar
 
 }  // namespace
 
-std::string more_layers(const coupling::Scenario& s) {
+std::string more_layers(const Scenario& s) {
   return has_resolved_rotor(s) ? "raise aero.grid.cells_layers" : aero::more_layers(*s.aero.flow);
 }
 
-std::string unresolved_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario, const runtime::World& world) {
+std::string unresolved_walls(const aero::FlowSolver& solver, const Scenario& scenario, const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
   return io::from_root(world.comm, world.rank == 0 ? why_unresolved(cells, scenario) : "");
 }
 
-std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const coupling::Scenario& scenario,
-                                         const runtime::World& world) {
+std::vector<std::string> doubts_of_walls(const aero::FlowSolver& solver, const Scenario& scenario, const runtime::World& world) {
   const aero::FirstCells cells = first_cells(solver, world);
   return world.rank == 0 ? doubts_of(cells, more_layers(scenario)) : std::vector<std::string>();
 }
 
-}  // namespace spindrift::run
+}  // namespace spindrift::coupling

@@ -170,6 +170,8 @@ class SharedAir final : public AirSide {
           const Account own = own_->account();
           to.put_one(own.counts.size());
           for (const auto& [name, count] : own.counts) put(to, name), to.put_one(count);
+          to.put_one(own.doubts.size());
+          for (const std::string& doubt : own.doubts) put(to, doubt);
           for (const std::vector<std::string>& sentences : {own_->log_lines(), own.sentences})  // what the last window has left
             for (const std::string& sentence : sentences) put(to, sentence);
         },
@@ -178,6 +180,7 @@ class SharedAir final : public AirSide {
             std::string name = text(from);
             account.counts.emplace_back(std::move(name), from.one<std::int64_t>());
           }
+          for (std::size_t left = from.one<std::size_t>(); left > 0; --left) account.doubts.push_back(text(from));
           while (!from.done()) account.sentences.push_back(text(from));
         });
     return account;

@@ -12,10 +12,10 @@
 #include "src/aero/coarse_start.hpp"
 #include "src/aero/flow/choice.hpp"
 #include "src/coupling/air_output.hpp"
+#include "src/coupling/first_cells.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/retries.hpp"
 #include "src/coupling/saved_air.hpp"
-#include "src/run/first_cells.hpp"
 
 namespace spindrift::run {
 

@@ -380,6 +380,8 @@ void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) 
   const coupling::AirSide::Account air = window_.sides().air().account();
   summary.counts.insert(summary.counts.end(), air.counts.begin(), air.counts.end());
   write_log_lines(), write_lines(air.sentences);
+  for (const std::string& doubt : air.doubts) spdlog::warn("{}", doubt);
+  summary.numerical_trouble.insert(summary.numerical_trouble.end(), air.doubts.begin(), air.doubts.end());
   // Bodies that no particle moves go on within tasks of the sea; all ask for their loads within their own.
   if (parts_.has(sea_part) && !floating_.scenario().bodies.empty()) {
     if (floating_.particles() && !floating_.particles()->moves_solids())

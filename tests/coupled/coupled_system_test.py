@@ -288,6 +288,16 @@ class SystemRun(System):
         self.assertIn("went beyond the bounds of", page)
         self.assertIn(f"shortened windows: {limited}", page)
 
+    def test_first_cells_that_are_too_coarse_are_told_at_the_end(self):
+        sticks = ["aero.flow.viscous='thin_layer'", "aero.flow.turbulence='sa'", "aero.flow.blades='no_slip'", "time.end_s=0.1"]
+        for text, name, settings, ranks in ((ENGINEERING, "shared", sticks, 1), (PARTICLES, "split", [*sticks, *self.SPLIT], 2)):
+            self.spindrift(text, name, settings=settings, ranks=ranks)
+            told = json.loads((self.path / name / "summary.json").read_text())["numerical_trouble"]
+            self.assertEqual([words for words in told if words.startswith("air: y+ of first cells is ")], told[:1], told)
+            self.assertIn(f"warning  {told[0]}", (self.path / name / "log.txt").read_text())
+        self.spindrift(ENGINEERING, "slides", settings=["time.end_s=0.1"])
+        self.assertEqual(json.loads((self.path / "slides/summary.json").read_text())["numerical_trouble"], [])
+
     def columns(self, name):
         return set(self.text(name).split("\n", 1)[0].split(","))
 

@@ -360,8 +360,6 @@ Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> wall
     tiling.boundaries_of.push_back({first_boundary, int(tiling.boundaries.size())});
   }
   agree_on_ends(tiling);
-  tiling.links_from.resize(tiling.size());
-  for (int l = 0; l < int(tiling.links.size()); ++l) tiling.links_from[tiling.links[l].from].push_back(l);
   return tiling;
 }
 

@@ -72,10 +72,9 @@ struct Tiling {
   std::vector<Tile> tiles;        ///< block by block; within a block k, then j, then i of the tile's directions slowest first
   std::vector<GhostLink> links;   ///< by `to`, then side
   std::vector<Range> links_into;  ///< per tile: of `links`
-  std::vector<std::vector<int>> links_from;  ///< per tile: indices in `links`
-  std::vector<TileBoundary> boundaries;      ///< by tile, then side
-  std::vector<Range> boundaries_of;          ///< per tile: of `boundaries`
-  std::vector<std::string> patches;          ///< names, in order of first use in the grid
+  std::vector<TileBoundary> boundaries;  ///< by tile, then side
+  std::vector<Range> boundaries_of;      ///< per tile: of `boundaries`
+  std::vector<std::string> patches;      ///< names, in order of first use in the grid
   std::vector<RigidMap> periodic;
   std::vector<Index> block_cells;
   bool planar = false;

@@ -34,7 +34,9 @@ class ToldAir final : public AirSide {
   std::vector<double> values() const override { return {2.0 * t_}; }
   std::vector<std::string> log_lines() override { return {"aimed", "hit"}; }
   void end_window() override { ++windows_; }
-  Account account() const override { return {{{"windows_hit", windows_}, {"windows_missed", 0}}, {"warning: hit often"}}; }
+  Account account() const override {
+    return {{{"windows_hit", windows_}, {"windows_missed", 0}}, {"all shots are faint"}, {"warning: hit often"}};
+  }
 
  private:
   double t_ = 0.0;
@@ -82,6 +84,7 @@ TEST_CASE("the air's answer, columns and sentences are on every rank, and so is 
   CHECK(air->written()->thrust == 1.0);
   for (int window = 0; window < 3; ++window) air->end_window();
   CHECK(air->account().counts == std::vector<std::pair<std::string, std::int64_t>>{{"windows_hit", 3}, {"windows_missed", 0}});
+  CHECK(air->account().doubts == std::vector<std::string>{"all shots are faint"});
   CHECK(air->account().sentences == std::vector<std::string>{"aimed", "hit", "warning: hit often"});
   air->prepare(-1.0, 0.1, {});
   try {
