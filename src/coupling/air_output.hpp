@@ -1,7 +1,7 @@
 // What the resolved air leaves in a run's folder for people: fields/air.xdmf (pressure, velocity, temperature, turbulence at cell
-// centres), fields/walls.xdmf, spanwise.csv. At the end of a run of the air alone, at chosen times of a coupled one. Called by
-// src/run and air_march.cpp; tested in tests/coupled/rotor_run_test.py and coupled_system_test.py. SPDX-License-Identifier:
-// Apache-2.0
+// centres) and fields/walls.xdmf by the blocks and the walls of the grid as it was given, spanwise.csv. At the end of a run of
+// the air alone, at chosen times of a coupled one. Called by src/run and air_march.cpp; tested in tests/coupled/rotor_run_test.py
+// and coupled_system_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
@@ -37,7 +37,7 @@ class AirOutput {
 
   const aero::FlowSolver* solver_;
   std::unique_ptr<io::GridFields> volume_, walls_;
-  std::vector<int> first_block_;  ///< of walls_, by tile
+  std::vector<int> wall_block_;  ///< of walls_, by window of the grid; -1 where there is no wall
 };
 
 /// scene.toml names what preconditioner = "auto" became, so that it runs alike. By one rank.

@@ -81,7 +81,7 @@ Writing SeaOutput::copy_surface(std::int64_t tick, double t) const {
                     {corners[n][0], corners[n][1], k == 0 ? tank.bed_at(corners[n][0]) : wet(heights[n], corners[n][0])});
   for (std::size_t n = 0; n < middles.size(); ++n) elevation[n] = wet(elevation[n], middles[n][0]);
   return [this, tick, t, points = std::move(points), elevation = std::move(elevation)] {
-    const io::GridFields::Values values{0, points, {elevation}};
+    const io::GridFields::Values values{0, {0, 0, 0}, {nx_, ny_, 1}, points, {elevation}};
     surface_->write(tick, t, std::span(&values, 1));
   };
 }

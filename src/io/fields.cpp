@@ -9,6 +9,7 @@
 
 #include "src/io/collective.hpp"
 #include "src/io/shared_hdf5.hpp"
+#include "src/io/stretches.hpp"
 #include "src/io/xdmf_series.hpp"
 
 namespace spindrift::io {
@@ -85,21 +86,66 @@ struct GridFields::Impl {
   bool moves;
   std::string points_file{};  // that has the points of the next output
 
-  static std::size_t cells(const GridBlock& b) { return static_cast<std::size_t>(b.ni) * b.nj * std::max(b.nk, 1); }
-  static std::size_t corners(const GridBlock& b) { return static_cast<std::size_t>(b.ni + 1) * (b.nj + 1) * (b.nk + 1); }
+  /// Elements of an array along i, j, k: of cells, or of corners, one more than these.
+  static Stretches::Index extents(const std::array<int, 3>& low, const std::array<int, 3>& high, bool surface, bool corners) {
+    Stretches::Index n;
+    for (std::size_t d = 0; d < 3; ++d) n[d] = high[d] - low[d] + (corners ? 1 : 0);
+    if (surface) n[2] = 1;
+    return n;
+  }
+  static Stretches::Index extents(const GridBlock& b, bool corners) {
+    return extents({0, 0, 0}, {b.ni, b.nj, b.nk}, b.nk == 0, corners);
+  }
 
-  /// Points first where they are written, then the fields, block by block.
+  /// Points first where they are written, then field by field, each of all blocks.
   std::vector<SharedFile::Array> arrays(bool with_points) const {
     std::vector<SharedFile::Array> list;
-    for (const GridBlock& b : blocks) {
-      const auto extent = [](int n) { return static_cast<hsize_t>(n); };
-      std::vector<hsize_t> points{extent(b.nk + 1), extent(b.nj + 1), extent(b.ni + 1), 3},
-          cells{extent(b.nk), extent(b.nj), extent(b.ni)};
-      if (b.nk == 0) points.erase(points.begin()), cells.erase(cells.begin());
-      if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, points, {}});
-      for (const Field& field : series.fields) list.push_back(field_array(b.name + "/" + field.name, cells, field));
-    }
+    const auto shape = [](const GridBlock& b, bool corners) {
+      const Stretches::Index n = extents(b, corners);
+      std::vector<hsize_t> found(n.rbegin() + (b.nk == 0 ? 1 : 0), n.rend());
+      return found;
+    };
+    for (const GridBlock& b : blocks)
+      if (with_points) list.push_back({b.name + "/points", H5T_NATIVE_DOUBLE, with_components(shape(b, true), 3), {}});
+    for (const Field& field : series.fields)
+      for (const GridBlock& b : blocks) list.push_back(field_array(b.name + "/" + field.name, shape(b, false), field));
     return list;
+  }
+
+  void require_sizes(const Values& values, bool with_points) const {
+    const GridBlock& b = blocks.at(static_cast<std::size_t>(values.block));
+    const auto elements = [&](bool corners) {
+      const Stretches::Index n = extents(values.low, values.high, b.nk == 0, corners);
+      return static_cast<std::size_t>(n[0] * n[1] * n[2]);
+    };
+    if (with_points) require_size(values.points.size(), 3 * elements(true), b.name + "/points");
+    require_size(values.fields.size(), series.fields.size(), b.name + " (number of fields)");
+    for (std::size_t f = 0; f < series.fields.size(); ++f)
+      require_size(values.fields[f].size(), elements(false) * static_cast<std::size_t>(series.fields[f].components),
+                   b.name + "/" + series.fields[f].name);
+  }
+
+  /// What is here of all blocks' cells or corners, and where a field's values of it are.
+  struct Boxes {
+    std::vector<Stretches::Index> blocks{};
+    std::vector<Stretches::Box> mine{};
+    std::vector<Stretches::Source> sources{};
+  };
+  Boxes boxes(std::span<const Values> mine, bool corners) const {
+    Boxes found;
+    for (const GridBlock& b : blocks) found.blocks.push_back(extents(b, corners));
+    for (const Values& values : mine) {
+      const GridBlock& b = blocks.at(static_cast<std::size_t>(values.block));
+      Stretches::Box& box = found.mine.emplace_back(Stretches::Box{values.block, {}, {}});
+      const Stretches::Index n = extents(values.low, values.high, b.nk == 0, corners);
+      const std::array<int, 3> ends{b.ni, b.nj, b.nk};
+      for (std::size_t d = 0; d < 3; ++d) {
+        box.low[d] = values.low[d], box.high[d] = box.low[d] + n[d];
+        if (corners && values.high[d] < ends[d]) box.high[d] -= 1;
+      }
+      found.sources.push_back({{}, n[0], n[0] * n[1]});
+    }
+    return found;
   }
 
   std::string grid(double time_s, const std::string& file) const {
@@ -135,25 +181,27 @@ void GridFields::write(std::int64_t tick, double time_s, std::span<const Values>
   if (with_points) impl_->points_file = name;
   SharedFile file(series.comm, series.folder / name);
   set_time(file, time_s);
-  const std::vector<std::int64_t> places = file.add(impl_->arrays(with_points));
-  const std::size_t per_block = series.fields.size() + (with_points ? 1 : 0);
+  file.on_root([&](hid_t id) { hdf5::set_attribute(id, "points_file", impl_->points_file); });
+  const std::vector<std::int64_t> all = file.add(impl_->arrays(with_points));
+  std::span<const std::int64_t> places(all);
+
+  Impl::Boxes corners, cells;
   together(series.comm, [&] {
-    std::vector<float> buffer;
-    for (const Values& values : mine) {
-      const GridBlock& block = impl_->blocks.at(static_cast<std::size_t>(values.block));
-      std::size_t at = per_block * static_cast<std::size_t>(values.block);
-      if (with_points) {
-        require_size(values.points.size(), 3 * Impl::corners(block), block.name + "/points");
-        file.write(places[at++], std::as_bytes(values.points));
-      }
-      require_size(values.fields.size(), series.fields.size(), block.name + " (number of fields)");
-      for (std::size_t f = 0; f < series.fields.size(); ++f, ++at) {
-        const auto expected = Impl::cells(block) * static_cast<std::size_t>(series.fields[f].components);
-        require_size(values.fields[f].size(), expected, block.name + "/" + series.fields[f].name);
-        write_single(file, places[at], values.fields[f], buffer);
-      }
-    }
+    for (const Values& values : mine) impl_->require_sizes(values, with_points);
+    if (with_points) corners = impl_->boxes(mine, true);
+    cells = impl_->boxes(mine, false);
   });
+  const std::size_t count = impl_->blocks.size();
+  if (with_points) {
+    for (std::size_t n = 0; n < mine.size(); ++n) corners.sources[n].values = mine[n].points;
+    Stretches(series.comm, corners.blocks, corners.mine).write<double>(file, places.first(count), 3, corners.sources);
+    places = places.subspan(count);
+  }
+  Stretches stretches(series.comm, cells.blocks, cells.mine);
+  for (std::size_t f = 0; f < series.fields.size(); ++f) {
+    for (std::size_t n = 0; n < mine.size(); ++n) cells.sources[n].values = mine[n].fields[f];
+    stretches.write<float>(file, places.subspan(f * count, count), series.fields[f].components, cells.sources);
+  }
   file.commit();
   series.append(time_s, impl_->grid(time_s, name));
 }

@@ -6,7 +6,7 @@
     run.units["platform.pitch_deg"]            # "deg"
     run.mean("rotor.thrust_N", after=8.0)
     for field in run.fields("air"):            # h5py is needed
-        print(field.time, field["tile_0/pressure"].shape)
+        print(field.time, field.blocks(), field["ring_1/pressure"].shape)
     result = spindrift.run("scene.toml", out="run1", set={"time.end_s": 60.0})
     study = spindrift.open_study("runs/steps")
 
@@ -104,7 +104,7 @@ class Run:
 
 
 class Field:
-    """One output of fields: `time` [s]; arrays by path ("position", "tile_0/pressure"), their units."""
+    """One output of fields: `time` [s]; arrays by path ("position", "ring_1/pressure"), their units; of grids the points of a block."""
 
     def __init__(self, path):
         self.path = pathlib.Path(path)
@@ -126,6 +126,17 @@ class Field:
     def __getitem__(self, name):
         with self._file() as file:
             return file[name][...]
+
+    def blocks(self):
+        """Names of a grid's blocks."""
+        return sorted({name.partition("/")[0] for name in self.names() if "/" in name})
+
+    def points(self, block):
+        """Corners of a block's cells [m], (nk + 1, nj + 1, ni + 1, 3); of a grid that stands they are in the file of another output."""
+        with self._file() as file:
+            there = file.attrs.get("points_file", self.path.name)
+        other = Field(self.path.parent / (there.decode() if isinstance(there, bytes) else str(there)))
+        return other[f"{block}/points"]
 
     def unit(self, name):
         with self._file() as file:

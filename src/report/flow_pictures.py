@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.colors import Normalize, TwoSlopeNorm
 
 import figures
+import run_fields
 
 GAMMA, GAS_CONSTANT = 1.4, 287.05  # of kernels/gas/state.hpp
 
@@ -37,23 +38,19 @@ def residuals(run):
 
 
 def newest(run, name):
-    """The blocks of the newest fields/NAME_*.h5 as a list of {dataset: array}; None where there are none or h5py is missing."""
+    """The newest fields/NAME_*.h5 as a list of {array: values}, pieces of its blocks; None where there are none, h5py is missing or they cannot be read."""
     files = sorted((run.folder / "fields").glob(f"{name}_*.h5"))
     if not files:
         return None
     try:
-        import h5py
+        blocks = run_fields.grid(files[-1])
     except ImportError:
         return None
-    try:
-        with h5py.File(files[-1]) as file:
-            blocks = [{key: np.array(group[key]) for key in group} for group in file.values()]
-            attributes = [name for name in file]
-    except OSError:
+    except (OSError, ValueError) as error:
+        words = f"fields/ cannot be read: {error}"
+        run.notes += [words] if words not in run.notes else []
         return None
-    for block, label in zip(blocks, attributes):
-        block["block"] = label
-    return [block for block in blocks if "points" in block]
+    return [piece for label, block in blocks.items() for piece in run_fields.pieces(block | {"block": label}, 16)]
 
 
 def layer(block, y0):

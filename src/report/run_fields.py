@@ -1,5 +1,7 @@
 """The fields that a run left, by time: the water's surface between two outputs, the air of the nearest one.
 Called by scene_picture.py and plane_picture.py; needs h5py. SPDX-License-Identifier: Apache-2.0"""
+import itertools
+
 import numpy as np
 
 
@@ -55,25 +57,42 @@ class Fields:
         return self.kept[key]
 
     def air(self, t):
-        """The blocks of the air nearest to t, and their time."""
+        """The air nearest to t in pieces of its blocks, and its time."""
         found = self.nearest("air", t)
         if found is None:
             return [], t
         if ("air", found[0]) not in self.kept:
-            import h5py
-            with h5py.File(found[1]) as file:
-                points = self._points(found[1], file)
-                blocks = [{"points": points[name], "velocity": np.array(group["velocity"], float)} for name, group in file.items()]
+            blocks = [piece for block in grid(found[1], ["velocity"]).values() for piece in pieces(block, 32)]
             self.kept = {key: value for key, value in self.kept.items() if key[0] != "air"} | {("air", found[0]): blocks}
         return self.kept[("air", found[0])], found[0]
 
-    def _points(self, path, file):
-        """Of a grid that stands they are in the first output only."""
-        if all("points" in group for group in file.values()):
-            return {name: np.array(group["points"], float) for name, group in file.items()}
-        import h5py
-        with h5py.File(self.files["air"][0][1]) as first:
-            return {name: np.array(group["points"], float) for name, group in first.items()}
+
+def grid(path, names=None):
+    """{block: {"points": ..., field: ...}} of a file fields/air_*.h5 or walls_*.h5, all fields or those named. Points of a grid that stands are in another
+    file of the run, which the attribute points_file names."""
+    import h5py
+    with h5py.File(path) as file:
+        blocks = {name: {field: group[field][...] for field in (names or group) if field != "points"} for name, group in file.items()}
+        there = file.attrs.get("points_file", path.name)
+        there = path.parent / (there.decode() if isinstance(there, bytes) else there)
+    if not there.exists():
+        raise ValueError(f"{path}: the points of its grid are in {there.name}, which is not there")
+    with h5py.File(there) as file:
+        for name, block in blocks.items():
+            if name not in file or "points" not in file[name]:
+                raise ValueError(f"{path}: {there.name} has no points of its block '{name}': fields of an earlier version, run the scene again for pictures")
+            block["points"] = file[name]["points"][...]
+    return blocks
+
+
+def pieces(block, most):
+    """A block in boxes of at most so many cells each way: what bends round a rotor is nearly straight in each. Sections and surfaces of one row stay whole."""
+    cells = [n - 1 for n in block["points"].shape[:-1]]
+    if min(cells) <= 1:
+        return [block]
+    ends = [np.linspace(0, n, -(-n // most) + 1).astype(int) for n in cells]
+    return [{name: values[tuple(slice(low, high + (name == "points")) for low, high in box)] if isinstance(values, np.ndarray) else values
+             for name, values in block.items()} for box in itertools.product(*(zip(e[:-1], e[1:]) for e in ends))]
 
 
 def without_holes(z, bed):

@@ -6,6 +6,9 @@ import subprocess
 import time
 import unittest
 
+import numpy as np
+
+import field_files
 from running import AIR_OF_BLADES, DTU_IN_WIND, PROGRAM, ROOT, Runs, rows, trace_events
 
 CASES = ROOT / "inputs/leble_barakos"
@@ -442,6 +445,14 @@ class SystemRun(System):
                 self.assertEqual(len(list((self.path / name / "fields").glob(f"{kind}_*.h5"))), 2)
                 self.assertTrue((self.path / name / f"fields/{kind}.xdmf").exists())
         self.assertEqual((self.path / "out/spanwise.csv").read_text(), (self.path / "split/spanwise.csv").read_text())
+        for kind in ("air", "walls"):
+            of_one, of_split = (field_files.blocks(self.path / name, kind) for name in ("out", "split"))
+            self.assertEqual(of_one.keys(), of_split.keys())
+            for name, block in of_one.items():
+                for field, values in block.items():
+                    np.testing.assert_array_equal(values, of_split[name][field], f"{name}/{field}")
+        walls, cells = field_files.at_walls(self.path / "out")
+        self.assertGreater(np.corrcoef(walls, cells)[0, 1], 0.9)   # next to 0 where values lie elsewhere than their points
         last = self.rows("out")[-1]
         self.assertAlmostEqual(3.0 * last["rotor.blade_1.thrust_N"] / last["rotor.thrust_N"], 1.0, delta=1e-9)
         span = rows(self.path / "out/spanwise.csv")

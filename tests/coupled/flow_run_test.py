@@ -6,6 +6,7 @@ import xml.etree.ElementTree
 
 import numpy
 
+import field_files
 from running import Folder, ROOT, rows, spindrift
 
 CASES = ROOT / "inputs/validation"
@@ -44,6 +45,16 @@ class FlowRun(Folder):
                 drag += float((cf * length).sum()) / 2.0
             self.assertEqual(faces, 28)
             self.assertAlmostEqual(drag, self.history()[-1]["flow.drag_coefficient"], delta=1e-6)
+
+    def test_fields_have_the_blocks_of_the_grid_and_values_where_their_points_are(self):
+        """Several tiles a block, whose own directions are turned against the block's."""
+        done = spindrift("run", CASES / "naca0012/family.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",
+                         "--set", "aero.flow.tile_cells=512", "--set", "time.end_s=60.0", "--no-report")
+        self.assertIn(done.returncode, (0, 3), done.stdout + done.stderr)
+        grids = {step.get("Name") for step in xml.etree.ElementTree.parse(self.out / "fields/air.xdmf").iter("Grid") if step.get("GridType") == "Uniform"}
+        self.assertEqual(grids, set(field_files.blocks(self.out, "air")))
+        walls, cells = field_files.at_walls(self.out)
+        self.assertGreater(numpy.corrcoef(walls, cells)[0, 1], 0.9)   # next to 0 where values lie elsewhere than their points
 
     def test_first_cells_a_hundred_times_too_coarse_are_said_before_and_after_the_run(self):
         scene = CASES / "naca0012/family.toml"

@@ -219,7 +219,7 @@ class Builder {
   Builder(const MultiBlockGrid& grid, Tiling& tiling, const std::vector<std::vector<Passage>>& passages,
           const std::vector<Rows>& rows)
       : grid_(grid), tiling_(tiling), passages_(passages), rows_(rows) {
-    for (const Boundary& b : grid.boundaries) boundaries_[b.where.block].push_back(&b);
+    for (int n = 0; n < int(grid.boundaries.size()); ++n) boundaries_[grid.boundaries[n].where.block].push_back(n);
   }
 
   void neighbours(int number) {
@@ -240,12 +240,13 @@ class Builder {
         const Box shared = intersection(beyond, cells_at(p.window, block_cells, true));
         if (!shared.empty()) link(number, side, shared, p.beyond, p.map, p.periodic);
       }
-      for (const Boundary* b : boundaries_[tile.block]) {
-        if (b->where.side != block_side) continue;
-        const Box shared = intersection(beyond, cells_at(b->where, block_cells, true));
+      for (const int n : boundaries_[tile.block]) {
+        const Boundary& b = grid_.boundaries[n];
+        if (b.where.side != block_side) continue;
+        const Box shared = intersection(beyond, cells_at(b.where, block_cells, true));
         if (shared.empty()) continue;
         const auto [low, high] = window_of(side, image(tile.to_block.inverse(), shared));
-        tiling_.boundaries.push_back({number, side, low, high, tiling_.patch(b->patch)});
+        tiling_.boundaries.push_back({number, side, low, high, tiling_.patch(b.patch), n});
       }
     }
   }
@@ -279,7 +280,7 @@ class Builder {
   Tiling& tiling_;
   const std::vector<std::vector<Passage>>& passages_;
   const std::vector<Rows>& rows_;
-  std::map<int, std::vector<const Boundary*>> boundaries_;
+  std::map<int, std::vector<int>> boundaries_;  ///< of the grid, by block
 };
 
 }  // namespace
@@ -338,11 +339,13 @@ Tiling make_tiling(const MultiBlockGrid& grid, std::span<const std::string> wall
                    const EdgeLengths& edges) {
   Tiling tiling;
   tiling.planar = grid.planar;
+  tiling.windows = grid.boundaries;
   const auto open = passages(grid, tiling.periodic);
   const auto lines = choose_lines(grid, walls, open, edges);
   const auto along = choose_along(grid, options.sticky, open);
   std::vector<Rows> rows;
   for (int b = 0; b < int(grid.blocks.size()); ++b) {
+    tiling.block_names.push_back(grid.blocks[b].name);
     tiling.block_cells.push_back(grid.blocks[b].cells());
     const std::size_t first = tiling.tiles.size();
     rows.push_back(cut(grid.blocks[b], b, lines[b], grid.planar, options, tiling.tiles));

@@ -49,7 +49,8 @@ struct TileBoundary {
   int tile = 0;
   Side side = Side::i_min;
   std::array<int, 2> low{}, high{};
-  int patch = 0;  ///< index in Tiling::patches
+  int patch = 0;   ///< index in Tiling::patches
+  int window = 0;  ///< index in Tiling::windows: the one that this is a part of
 };
 
 /// Ghost cells of `to` beyond a window of one of its sides, and the cells of `from` that fill them: ghost cell (i, j, k) of `to`,
@@ -75,7 +76,9 @@ struct Tiling {
   std::vector<TileBoundary> boundaries;  ///< by tile, then side
   std::vector<Range> boundaries_of;      ///< per tile: of `boundaries`
   std::vector<std::string> patches;      ///< names, in order of first use in the grid
+  std::vector<Boundary> windows;         ///< the grid's
   std::vector<RigidMap> periodic;
+  std::vector<std::string> block_names;
   std::vector<Index> block_cells;
   bool planar = false;
 

@@ -28,32 +28,42 @@ def series(path):
 
 
 def check_grid(path, moving, outputs):
-    shapes = [(4, 3, 2), (2, 2, 1), (5, 1, 1)]
+    shapes = {"inner": (4, 3, 2), "wall": (6, 5, 0), "wake": (5, 1, 1), "outer": (48, 41, 40)}
     steps = series(path)
     assert len(steps) == outputs, len(steps)
-    files = set()
+    with_points = set()
     for n, step in enumerate(steps):
         t = 0.5 * (n + 1)
         assert float(step.find("Time").get("Value")) == t
         blocks = step.findall("Grid")
-        assert [block.get("Name") for block in blocks] == ["inner", "outer", "wake"]
-        for b, (block, (ni, nj, nk)) in enumerate(zip(blocks, shapes)):
+        assert [block.get("Name") for block in blocks] == list(shapes)
+        for b, (block, (ni, nj, nk)) in enumerate(zip(blocks, shapes.values())):
+            corners, cells = ((nk + 1, nj + 1, ni + 1), (nk, nj, ni)) if nk else ((nj + 1, ni + 1), (nj, ni))
             item = block.find("Geometry/DataItem")
-            files.add(item.text.split(":")[0])
+            with_points.add(item.text.split(":")[0])
             points = read(item, path.parent)
             k, j, i = np.meshgrid(range(nk + 1), range(nj + 1), range(ni + 1), indexing="ij")
-            np.testing.assert_array_equal(points, np.stack([i + 10.0 * b, j + (t if moving else 0.0), k + 0.1 * i], axis=-1))
-            assert block.find("Topology").get("Dimensions") == f"{nk + 1} {nj + 1} {ni + 1}"
+            expected = np.stack([i + 100.0 * b, j + (t if moving else 0.0), k + 0.1 * i], axis=-1)
+            np.testing.assert_array_equal(points, expected if nk else expected[0])
+            topology = block.find("Topology")
+            assert topology.get("Dimensions") == " ".join(map(str, corners)) and topology.get("TopologyType") == f"{len(cells)}DSMesh"
             values = {a.get("Name"): read(a.find("DataItem"), path.parent) for a in block.findall("Attribute")}
-            cell = np.arange(ni * nj * nk, dtype=float).reshape(nk, nj, ni)
+            cell = np.arange(np.prod(cells), dtype=float).reshape(cells)
             np.testing.assert_array_equal(values["pressure"], (1000.0 * b + cell + 0.5 * t).astype("f4"))
             np.testing.assert_array_equal(values["velocity"], np.stack([cell + t, 2 * cell, 0 * cell - b], axis=-1).astype("f4"))
+        # A file says all of it without the XDMF, in an array of points and one of each field for a block.
+        with h5py.File(path.parent / blocks[0].find("Attribute/DataItem").text.split(":")[0], "r") as file:
+            arrays = []
+            file.visititems(lambda name, found: arrays.append(name) if isinstance(found, h5py.Dataset) else None)
+            own = file.attrs["points_file"] in (file.filename.rpartition("/")[2], file.filename.rpartition("/")[2].encode())
+            expected = {f"{block}/{array}" for block in shapes for array in ("pressure", "velocity", *(["points"] if own else []))}
+            assert set(arrays) == expected, arrays
+            there = file.attrs["points_file"]
+            assert (there.decode() if isinstance(there, bytes) else there) == item.text.split(":")[0]
+            assert file["inner/velocity"].attrs["unit"] in ("m/s", b"m/s")
+            assert file.attrs["time_s"] == t
     # At rest the points are in the first output of each of the two processes.
-    assert len(files) == (outputs if moving else 2), files
-    first = steps[0].find("Grid/Attribute/DataItem").text.split(":")[0]
-    with h5py.File(path.parent / first, "r") as file:
-        assert file["inner/velocity"].attrs["unit"] in ("m/s", b"m/s")
-        assert file.attrs["time_s"] == 0.5
+    assert len(with_points) == (outputs if moving else 2), with_points
 
 
 def check_particles(path, count):

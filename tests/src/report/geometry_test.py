@@ -274,6 +274,40 @@ class Geometry(unittest.TestCase):
                 self.assertLess(abs(local[:, 2]).max(), 95.0)   # free air is left out
                 self.assertEqual(file[f"cells_{n}"][...].max() + 1, len(points))
 
+    def test_points_of_a_grid_that_stands_are_where_the_file_says_and_blocks_come_in_pieces_without_gaps(self):
+        import h5py
+        folder = self.folder / "fields"
+        folder.mkdir()
+        nodes = np.stack(np.meshgrid(np.arange(6.0), np.arange(36.0), np.arange(41.0), indexing="ij"), axis=-1)
+        pressure = np.arange(5.0 * 35 * 40).reshape(5, 35, 40)
+        for n in (1, 2):
+            with h5py.File(folder / f"air_{n}.h5", "w") as file:
+                file.attrs["time_s"], file.attrs["points_file"] = float(n), "air_1.h5"
+                file["box/pressure"] = n * pressure
+                if n == 1:
+                    file["box/points"] = nodes
+        block = run_fields.grid(folder / "air_2.h5")["box"]
+        np.testing.assert_array_equal(block["points"], nodes)
+        pieces, seen = run_fields.pieces(block, 16), np.zeros(pressure.shape, int)
+        self.assertEqual(len(pieces), 9)
+        for piece in pieces:
+            low = piece["points"][0, 0, 0].astype(int)
+            here = tuple(slice(a, a + n) for a, n in zip(low, piece["pressure"].shape))
+            seen[here] += 1
+            self.assertLessEqual(max(piece["pressure"].shape), 16)
+            np.testing.assert_array_equal(piece["pressure"], 2 * pressure[here])
+            np.testing.assert_array_equal(piece["points"][-1, -1, -1], low + piece["pressure"].shape)
+        self.assertTrue((seen == 1).all())
+        section = {"points": nodes[:2], "pressure": pressure[:1]}
+        self.assertEqual(run_fields.pieces(section, 16), [section])
+        (folder / "air_1.h5").unlink()
+        with self.assertRaisesRegex(ValueError, "points of its grid are in air_1.h5, which is not there"):
+            run_fields.grid(folder / "air_2.h5")
+        with h5py.File(folder / "air_2.h5", "a") as file:
+            del file.attrs["points_file"]   # as earlier versions wrote
+        with self.assertRaisesRegex(ValueError, "no points of its block 'box': fields of an earlier version"):
+            run_fields.grid(folder / "air_2.h5")
+
     def test_holes_in_the_surface_are_closed(self):
         z = np.zeros((9, 9))
         z[4, 4] = -20.0
