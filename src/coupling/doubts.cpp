@@ -387,9 +387,10 @@ void doubt_displaced_equilibrium(scene::Doubts& doubts, const FloatingSystem& fl
     const auto& [name, o] = floating.scenario().bodies[b];
     const Motion& found = start.state.motions[b];
     const ReferenceMotion m = reference_motion(floating, b, found);
+    const std::string section = "bodies." + name;
     const auto doubt = [&](const char* key, const Eigen::Vector3d& given, const Eigen::Vector3d& is) {
       if (given.isZero(0.0) || (given - is).norm() <= most * given.norm()) return;
-      doubts.push_back({"bodies." + name + key,
+      doubts.push_back({section + key,
                         fmt::format("[{:.4g}, {:.4g}, {:.4g}], of which start.equilibrium leaves [{:.4g}, {:.4g}, {:.4g}]",
                                     given.x(), given.y(), given.z(), is.x(), is.y(), is.z()),
                         "one of the two", "for a start from there, as for a decay test, leave out start.equilibrium"});

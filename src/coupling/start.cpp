@@ -34,11 +34,12 @@ void require_kept(const FloatingSystem& floating, std::string key, const Eigen::
 void require_moved(const FloatingSystem& floating, std::size_t b, const Motion& found) {
   constexpr double relative = 1e-3;  // what is written with four digits
   const auto& [name, o] = floating.scenario().bodies[b];
+  const std::string section = "bodies." + name;
   const ReferenceMotion left = reference_motion(floating, b, found);
   const auto refuse_lost = [&](const std::string& key, const Eigen::Vector3d& given, const Eigen::Vector3d& is) {
     const auto words = [](const Eigen::Vector3d& v) { return fmt::format("[{:.5g}, {:.5g}, {:.5g}]", v.x(), v.y(), v.z()); };
     refuse(
-        floating, "bodies." + name + key, words(given),
+        floating, section + key, words(given),
         fmt::format("is not possible with the joints of this body, which leave {} of it: displace and turn all bodies that they "
                     "tie together, or leave it out",
                     words(is)));
