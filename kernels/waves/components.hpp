@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "kernels/base/lane_math.hpp"
 
@@ -41,6 +42,13 @@ inline void set_lane(ComponentGroup& g, int lane, const Component& c, double dep
   g.bottom.v[lane] = bottom;
   g.phase_speed.v[lane] = c.angular_frequency / c.wave_number;
   g.speed.v[lane] = c.speed_amplitude / (1.0 - bottom);  // C = (e^kz + e^-2kh e^-kz) / (1 - e^-2kh): no overflow
+}
+
+/// In water of this depth [m].
+inline std::vector<ComponentGroup> grouped(std::span<const Component> components, double depth) {
+  std::vector<ComponentGroup> groups((components.size() + lanes - 1) / lanes);
+  for (std::size_t i = 0; i < components.size(); ++i) set_lane(groups[i / lanes], int(i % lanes), components[i], depth);
+  return groups;
 }
 
 struct Surface {

@@ -235,7 +235,8 @@ const Section<WavemakerOptions>& wavemaker_section() {
 const Section<DampingZoneOptions>& damping_zone_section() {
   static const auto section =
       Section<DampingZoneOptions>("damping_zones",
-                                  "A stretch of x or y where the water is brought to rest: dv/dt = -rate s^2 v, s from 0 to 1.")
+                                  "A stretch of x or y where the water is brought to rest, or to the motion w of [waves]: dv/dt "
+                                  "= rate s^2 (w - v), s from 0 to 1.")
           .number("from_m", &DampingZoneOptions::from_m, "m", "Where the damping begins.")
           .required()
           .number("to_m", &DampingZoneOptions::to_m, "m", "Where it has its full rate; below from_m for a zone at the lower end.")
@@ -245,6 +246,11 @@ const Section<DampingZoneOptions>& damping_zone_section() {
           .required()
           .choice("axis", &DampingZoneOptions::axis, {{"x", "along the tank"}, {"y", "across it, in 3-D"}},
                   "Direction of the stretch.")
+          .choice("towards", &DampingZoneOptions::towards,
+                  {{"rest", "waves die away"},
+                   {"waves",
+                    "the sea follows [waves] there, to their order: they keep their height, and what bodies radiate dies away"}},
+                  "What the water is brought to.")
           .check([](const DampingZoneOptions& o, const scene::Report& report) {
             if (o.from_m == o.to_m) report("to_m", "is where from_m is");
           });

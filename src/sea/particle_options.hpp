@@ -86,7 +86,8 @@ struct WavemakerOptions {
 struct DampingZoneOptions {
   double from_m = 0.0, to_m = 0.0;  ///< no damping there; full damping there
   double rate_1_s = 0.0;
-  std::string axis = "x";  ///< x, y
+  std::string axis = "x";        ///< x, y
+  std::string towards = "rest";  ///< rest, waves
 };
 
 /// [sea.initial]

@@ -134,6 +134,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const ParticleOptions& p = *o.particles;
   const TankOptions& t = *o.tank;
   const bool planar = p.planar(), waved = waves.model != "none";
+  const bool led = std::ranges::any_of(o.damping_zones, [](const auto& zone) { return zone.towards == "waves"; });
   const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
@@ -178,8 +179,10 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
                              box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]));
   }
   if (o.wavemaker && !waved) wrong("sea.wavemaker", "has no wave to make: give [waves]");
-  if (waved && !o.wavemaker && !starts_in_waves(o))
-    wrong("waves.model", "has no effect: the sea of particles has neither [sea.wavemaker] nor sea.initial.state = \"waves\"",
+  if (waved && !o.wavemaker && !starts_in_waves(o) && !led)
+    wrong("waves.model",
+          "has no effect: the sea of particles has no [sea.wavemaker], no sea.initial.state = \"waves\" and no damping zone "
+          "towards them",
           "sea.initial.state");
   if (waved && waves.ramp_s.value_or(0.0) > 0.0)
     wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
@@ -278,6 +281,11 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       wrong(key, "is along y: sea.particles.dimensions is 2");
       continue;
     }
+    if (zone.towards == "waves" && !waved) wrong(key + ".towards", "has no waves to bring the water to: give [waves]");
+    if (zone.towards == "waves" && o.wavemaker)
+      wrong(key + ".towards", "must be \"rest\" with [sea.wavemaker], whose waves grow and steepen on their way");
+    if (zone.towards == "waves" && o.initial && o.initial->state == "standing")
+      wrong(key + ".towards", "must be \"rest\" where waves stand: [waves] travels");
     const auto& sides = zone.axis == "y" ? t.y_m : t.x_m;
     for (const double end : {zone.from_m, zone.to_m})
       if (!(end >= sides[0] && end <= sides[1])) wrong(key, fmt::format("reaches {} = {} m, outside the tank", zone.axis, end));

@@ -94,7 +94,8 @@ class Sea final : public ParticleSea {
         particles_(tank.seeds.size()),
         solids_(sea_, plan, start, tank, tank.paddle ? std::optional(wavemaker_of(plan)) : std::nullopt) {
     for (const DampingZoneOptions& z : plan.damping_zones)
-      sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0});
+      sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0, z.towards == "waves"});
+    sea_.state().damping.waves = waves::grouped(plan.waves, plan.tank.depth);
     steps_.steps.steps_per_check = plan.options.limits_every;
     steps_.steps.choose = [this](double limit, int most) {
       const WindowDriver::Steps steps = driver_->choose(limit, most);
@@ -140,7 +141,8 @@ class Sea final : public ParticleSea {
   }
   void forget_tasks() override { tasks_.clear(); }
   void open(double t, std::span<const Motion> bodies, bool settling) override {
-    sea_.state().damping.everywhere = settling ? settle_damping_ : 0.0, t_ = t;
+    sph::Damping& damping = sea_.state().damping;
+    damping.everywhere = settling ? settle_damping_ : 0.0, damping.ahead = t - sea_.time(), t_ = t;
     solids_.place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last

@@ -25,7 +25,7 @@ WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environm
   if (options.crest_height_m)
     waves::raise_crest(components_, {*options.crest_height_m, options.crest_time_s, options.crest_place_m[0],
                                      options.crest_place_m[1], !options.crest_alone});
-  groups_ = grouped(components_);
+  groups_ = waves::grouped(components_, depth_);
   if (options.second_order) {
     std::vector<waves::Component> carriers = components_;
     std::erase_if(carriers, [limit = bound_wave_limit(options.height_m, environment.gravity)](const waves::Component& c) {
@@ -40,19 +40,13 @@ WaveField::WaveField(const WavesOptions& options, const SeaEnvironment& environm
     stretching_ = Stretching::vertical;
 }
 
-std::vector<waves::ComponentGroup> WaveField::grouped(const std::vector<waves::Component>& components) const {
-  std::vector<waves::ComponentGroup> groups((components.size() + lanes - 1) / lanes);
-  for (std::size_t i = 0; i < components.size(); ++i) waves::set_lane(groups[i / lanes], int(i % lanes), components[i], depth_);
-  return groups;
-}
-
 std::vector<waves::ComponentGroup> WaveField::scattered(double radius) const {
   std::vector<waves::Component> components = components_;
   for (waves::Component& c : components) {
     const std::complex<double> inertia = waves::maccamy_fuchs(c.wave_number * radius);
     c.speed_amplitude *= std::abs(inertia), c.phase += std::arg(inertia);
   }
-  return grouped(components);
+  return waves::grouped(components, depth_);
 }
 
 double WaveField::ramp(double t) const {

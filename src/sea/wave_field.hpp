@@ -40,7 +40,6 @@ class WaveField {
   double ramp(double t) const;
 
  private:
-  std::vector<waves::ComponentGroup> grouped(const std::vector<waves::Component>& components) const;
   waves::Kinematics second_order(double t, const Eigen::Vector3d& point, double elevation) const;
 
   enum class Stretching { wheeler, vertical, extrapolated };

@@ -83,21 +83,14 @@ EnergyFlow energy_flow(const Store<dim, Real>& store, const Parameters& p, int g
   return {quanta.count(onto), quanta.count(from), 0};
 }
 
-/// What the damping that is about to act takes from the water of a group.
+/// Damps the water of a group over a step of dt that ends at t [s], and says what that takes; below zero where waves are made.
 template <int dim, class Real>
-EnergyFlow damped_energy(const Store<dim, Real>& store, const Parameters& p, const Damping& damping, double dt, int group) {
+EnergyFlow damp(Store<dim, Real>& store, const Parameters& p, const Damping& damping, double t, double dt, int group) {
   const ToQuanta quanta(energy_quantum(p, dim));
   double absorbed = 0.0;
   const Group& range = store.groups[group];
-  for (std::size_t slot = std::size_t(range.fluid) * cluster_size; slot < std::size_t(range.solid) * cluster_size; ++slot) {
-    if (store.id[slot] == no_particle) continue;
-    double rate = damping.everywhere, speed2 = 0.0;
-    for (const DampingZone& zone : damping.zones) rate += zone.rate_at(store.x[zone.axis][slot]);
-    if (rate == 0.0) continue;
-    const double factor = std::exp(-rate * dt);
-    for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
-    absorbed += quanta(0.5 * p.mass(dim) * speed2 * (1.0 - factor * factor));
-  }
+  damp(store, damping, t, dt, std::size_t(range.fluid), std::size_t(range.solid),
+       [&](double speed2, double share) { absorbed += quanta(0.5 * p.mass(dim) * speed2 * share); });
   return {0, 0, quanta.count(absorbed)};
 }
 

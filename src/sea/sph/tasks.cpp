@@ -339,9 +339,8 @@ void StepTasks<dim, Real>::correct() {
         else
           correct_symplectic(sea.store, sea.p, g, dt);
         if (!sea.damping.acts()) continue;
-        sea.energy.add_from_task(damped_energy(sea.store, sea.p, sea.damping, dt, g));
-        const Group& group = sea.store.groups[std::size_t(g)];
-        damp(sea.store, sea.damping, dt, group.fluid, group.solid);
+        const double end = sea.plan.time + n * sea.plan.dt + dt;
+        sea.energy.add_from_task(damp(sea.store, sea.p, sea.damping, end, dt, g));
       }
     }));
   }

@@ -88,7 +88,7 @@ TEST_CASE("a damped velocity decays exactly and only in the zone and in the wate
   Store<2, float> store;
   fill<2, float>(store, seeds, Columns<2>(domain, 1.0, 1.0), 0.25);
   const Damping zones{.zones = {{4.0, 8.0, 3.0}}};
-  damp(store, zones, 0.1);
+  damp(store, zones, 0.0, 0.1, 0, store.clusters(), [](double, double) {});
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
     if (store.id[slot] == no_particle) continue;
     const double s = std::clamp((store.x[0][slot] - 4.0) / 4.0, 0.0, 1.0);
@@ -104,10 +104,46 @@ TEST_CASE("a damping zone across the tank brakes by y alone", "[sea][sph][fast]"
   Store<3, float> store;
   fill<3, float>(store, seeds, Columns<3>({{-1.0, -1.0, -1.0}, {11.0, 11.0, 1.0}}, 1.0, 1.0), 0.25);
   const Damping zones{.zones = {{.from = 4.0, .to = 8.0, .rate = 3.0, .axis = 1}}};
-  damp(store, zones, 0.1);
+  damp(store, zones, 0.0, 0.1, 0, store.clusters(), [](double, double) {});
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
     if (store.id[slot] == no_particle) continue;
     const double s = std::clamp((store.x[1][slot] - 4.0) / 4.0, 0.0, 1.0);
     CHECK(store.v[0][slot] == Approx(std::exp(-3.0 * s * s * 0.1)));
   }
+}
+
+TEST_CASE("a zone that leads to waves leaves of the difference to their motion what exponential decay does", "[sea][sph][fast]") {
+  constexpr double t = 3.0, ahead = 0.7, dt = 0.1, rate = 2.0;
+  std::vector<Seed<3>> seeds;
+  for (int n = 0; n < 40; ++n)
+    seeds.push_back(
+        {.position = {0.25 * n, 0.1 * n, 0.4 - 0.1 * n}, .velocity = {1.0, 0.3, -2.0}, .owner = std::uint16_t(n >= 36)});
+  Store<3, float> store;
+  fill<3, float>(store, seeds, Columns<3>({{-1.0, -1.0, -5.0}, {11.0, 11.0, 1.0}}, 1.0, 1.0), 0.25);
+  const std::array<waves::Component, 1> sea{regular()};
+  const Damping zones{
+      .zones = {{4.0, 8.0, rate, 0, true}, {2.0, 0.0, rate}}, .waves = waves::grouped(sea, depth), .ahead = ahead};
+  double taken = 0.0, expected = 0.0;
+  damp(store, zones, t, dt, 0, store.clusters(), [&](double speed2, double share) { taken += speed2 * share; });
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    if (store.id[slot] == no_particle) continue;
+    const double x = store.x[0][slot], y = store.x[1][slot], z = store.x[2][slot];
+    const double s = std::clamp((x - 4.0) / 4.0, 0.0, 1.0), to_rest = std::clamp((2.0 - x) / 2.0, 0.0, 1.0);
+    const waves::Component& c = sea[0];
+    const double phase = c.wave_number * x - c.angular_frequency * (t + ahead) + c.phase, k = c.wave_number;
+    const double over = z > 0.0 ? 1.0 : 0.0, at = z > 0.0 ? 0.0 : z;  // above still water along the tangent
+    const double even = std::cosh(k * (at + depth)), odd = std::sinh(k * (at + depth)), bottom = std::sinh(k * depth);
+    const std::array<double, 3> start{1.0, 0.3, -2.0},
+        motion{c.speed_amplitude * (even + over * k * z * odd) / bottom * std::cos(phase), 0.0,
+               c.speed_amplitude * (odd + over * k * z * even) / bottom * std::sin(phase)};
+    const bool water = store.owner[slot / cluster_size] == 0;
+    CAPTURE(x, y, z, water);
+    for (int d = 0; d < 3; ++d) {
+      const double goal = s > 0.0 ? motion[std::size_t(d)] : 0.0,
+                   left = water ? std::exp(-rate * (s * s + to_rest * to_rest) * dt) : 1.0;
+      CHECK(store.v[d][slot] == Approx(goal + (start[std::size_t(d)] - goal) * left).margin(1e-12));
+      expected += start[std::size_t(d)] * start[std::size_t(d)] - store.v[d][slot] * store.v[d][slot];
+    }
+  }
+  CHECK(taken == Approx(expected));
 }
