@@ -281,11 +281,13 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       wrong(key, "is along y: sea.particles.dimensions is 2");
       continue;
     }
-    if (zone.towards == "waves" && !waved) wrong(key + ".towards", "has no waves to bring the water to: give [waves]");
-    if (zone.towards == "waves" && o.wavemaker)
-      wrong(key + ".towards", "must be \"rest\" with [sea.wavemaker], whose waves grow and steepen on their way");
-    if (zone.towards == "waves" && o.initial && o.initial->state == "standing")
-      wrong(key + ".towards", "must be \"rest\" where waves stand: [waves] travels");
+    if (zone.towards == "waves") {
+      if (!waved) wrong(key + ".towards", "has no waves to bring the water to: give [waves]");
+      if (o.wavemaker)
+        wrong(key + ".towards", "must be \"rest\" with [sea.wavemaker], whose waves grow and steepen on their way");
+      if (o.initial && o.initial->state == "standing")
+        wrong(key + ".towards", "must be \"rest\" where waves stand: [waves] travels");
+    }
     const auto& sides = zone.axis == "y" ? t.y_m : t.x_m;
     for (const double end : {zone.from_m, zone.to_m})
       if (!(end >= sides[0] && end <= sides[1])) wrong(key, fmt::format("reaches {} = {} m, outside the tank", zone.axis, end));

@@ -57,11 +57,6 @@ settle_s = 0.1
 """ % CASES + AIR
 
 
-# As ci/mpirun has it: tests run as root, in containers, with more ranks than cores.
-MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-       "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
-
-
 class System(Runs):
     SPLIT = ["coupling.placement='split'"]
 
@@ -69,21 +64,21 @@ class System(Runs):
         scene = self.path / "scene.toml"
         scene.write_text(text)
         given = [word for s in settings for word in ("--set", s)]
-        start = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
+        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else []
         return self.ended([*start, PROGRAM, "run", scene, "--quiet", "--no-report", "--out", self.path / name, *map(str, arguments), *given], threads,
                           code)
 
     def ended(self, command, threads, code):
         done = subprocess.run(command, capture_output=True, text=True, timeout=900,
-                              env={**os.environ, **MPI, "OMP_NUM_THREADS": str(threads)})
+                              env={**os.environ, "OMP_NUM_THREADS": str(threads)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
     def in_sections(self, name, *sections, code=0):
         """Program sections of one mpirun: (ranks, arguments) each, of the scene in the folder."""
-        words = ["mpirun", "--bind-to", "none"]
+        words = [ROOT / "ci/mpirun"]
         for ranks, arguments in sections:
-            words += [*([":"] if words[-1] != "none" else []), "-n", str(ranks), PROGRAM, "run", self.path / "scene.toml", "--quiet", "--no-report",
+            words += [*([":", "-n"] if len(words) > 1 else []), str(ranks), PROGRAM, "run", self.path / "scene.toml", "--quiet", "--no-report",
                       "--out", self.path / name, *map(str, arguments)]
         return self.ended(words, 1, code)
 
@@ -104,7 +99,7 @@ class Profile(System):
     def profiled(self, ranks, threads=1):
         (self.path / "scene.toml").write_text(PARTICLES)
         given = [word for s in self.SETTINGS for word in ("--set", s)]
-        start = ["mpirun", "-n", str(ranks), "--bind-to", "none"] if ranks > 1 else []
+        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else []
         begin = time.monotonic()
         said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0)
         profile = json.loads((self.path / "out/profile.json").read_text())

@@ -120,13 +120,6 @@ TEST_CASE("a rank of which all have heard that it is to stop gives up without a 
                   StopAsked);
 }
 
-// ThreadSanitizer holds signals back in the child of a process that has threads.
-#ifdef __has_feature
-#if __has_feature(thread_sanitizer)
-#define SPINDRIFT_HOLDS_SIGNALS_BACK
-#endif
-#endif
-#ifndef SPINDRIFT_HOLDS_SIGNALS_BACK
 TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
   CHECK(ended_by([] {
           const StopRequest stop;
@@ -135,4 +128,3 @@ TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]")
           ::raise(SIGUSR1);
         }) == SIGUSR1);
 }
-#endif

@@ -46,8 +46,8 @@ std::array<double, dim> wave_velocity(const Damping& damping, const std::array<d
     return {motion.velocity.x(), motion.velocity.z()};
 }
 
-/// Damps the water in some clusters over a step of dt that ends at t [s], by the clock of the sea. What that takes of the square
-/// of a particle's speed is told as a product: took(a, b) for a b [m2/s2].
+/// Damps the water in some clusters over a step of dt that ends at t [s], by the clock of the sea. took(s): what that takes of
+/// the square of a particle's speed [m2/s2].
 template <int dim, class Real, class Took>
 void damp(Store<dim, Real>& store, const Damping& damping, double t, double dt, std::size_t first, std::size_t last,
           Took&& took) {
@@ -70,20 +70,14 @@ void damp(Store<dim, Real>& store, const Damping& damping, double t, double dt, 
         led = wave_velocity<dim>(damping, x, t);
         for (double& v : led) v *= (1.0 - factor) * to_waves / rate;
       }
-      double before = 0.0, after = 0.0;
+      double taken = 0.0;
       for (int k = 0; k < dim; ++k) {
-        before += store.v[k][slot] * store.v[k][slot];
-        store.v[k][slot] *= factor;
-        if (!store.v_before[k].empty()) store.v_before[k][slot] *= factor;
-        if (to_waves == 0.0) continue;
-        store.v[k][slot] += led[k];
-        if (!store.v_before[k].empty()) store.v_before[k][slot] += led[k];
-        after += store.v[k][slot] * store.v[k][slot];
+        const double before = store.v[k][slot], after = before * factor + led[k];
+        taken += before * before - after * after;
+        store.v[k][slot] = after;
+        if (!store.v_before[k].empty()) store.v_before[k][slot] = store.v_before[k][slot] * factor + led[k];
       }
-      if (to_waves == 0.0)
-        took(before, 1.0 - factor * factor);
-      else
-        took(before - after, 1.0);
+      took(taken);
     }
   }
 }

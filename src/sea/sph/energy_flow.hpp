@@ -90,7 +90,7 @@ EnergyFlow damp(Store<dim, Real>& store, const Parameters& p, const Damping& dam
   double absorbed = 0.0;
   const Group& range = store.groups[group];
   damp(store, damping, t, dt, std::size_t(range.fluid), std::size_t(range.solid),
-       [&](double speed2, double share) { absorbed += quanta(0.5 * p.mass(dim) * speed2 * share); });
+       [&](double speed2) { absorbed += quanta(0.5 * p.mass(dim) * speed2); });
   return {0, 0, quanta.count(absorbed)};
 }
 
