@@ -53,6 +53,11 @@ class FlowRun(Folder):
         self.assertIn(done.returncode, (0, 3), done.stdout + done.stderr)
         grids = {step.get("Name") for step in xml.etree.ElementTree.parse(self.out / "fields/air.xdmf").iter("Grid") if step.get("GridType") == "Uniform"}
         self.assertEqual(grids, set(field_files.blocks(self.out, "air")))
+        for block in field_files.blocks(self.out, "air").values():   # of tiles the wrong way round cells would lie across each other
+            x, z = block["points"][0, ..., 0], block["points"][0, ..., 2]
+            along, across = (numpy.stack([numpy.diff(c, axis=1)[:-1], numpy.diff(c, axis=0)[:, :-1]]) for c in (x, z))
+            areas = along[0] * across[1] - along[1] * across[0]
+            self.assertTrue((areas > 0).all() or (areas < 0).all())
         walls, cells = field_files.at_walls(self.out)
         self.assertGreater(numpy.corrcoef(walls, cells)[0, 1], 0.9)   # next to 0 where values lie elsewhere than their points
 

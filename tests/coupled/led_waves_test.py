@@ -63,12 +63,12 @@ class LedWaves(Folder):
     def test_zones_keep_the_waves_height_and_phase_and_raise_them_from_rest(self):
         alone, _ = self.wave(self.run_scene("alone", SCENE + WAVES))
         led, late = self.wave(self.run_scene("led", SCENE + WAVES + ZONES))
-        raised, _ = self.wave(self.run_scene("raised", SCENE + ZONES))
-        print(f"height of the last two periods: {alone:.3f} of the waves' left alone, {led:.3f} led, {raised:.3f} raised from rest; phase {late:+.3f}", flush=True)
+        raised, later = self.wave(self.run_scene("raised", SCENE + "[sea.initial]\nsettle_s = 0.5\n" + ZONES))   # the sea's clock is not the scene's
+        print(f"height of the last two periods: {alone:.3f} of the waves' left alone, {led:.3f} led, {raised:.3f} raised from rest; phases {late:+.3f}, {later:+.3f}", flush=True)
         self.assertLess(alone, 0.8)
         self.assertGreater(led, 0.9)
         self.assertLess(led, 1.03)
-        self.assertLess(abs(late), 0.15)
+        self.assertLess(max(abs(late), abs(later)), 0.15)
         self.assertAlmostEqual(raised, led, delta=0.05)
 
     def test_restarts_and_ranks_leave_every_bit(self):
