@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -109,6 +110,10 @@ struct SeaOptions {
 
   bool has_particles() const { return model == "sph"; }
   double settle_s() const { return initial ? initial->settle_s : 0.0; }
+  bool starts_in_waves() const { return initial && (initial->state == "waves" || initial->state == "standing"); }
+  bool led_to_waves() const {
+    return std::ranges::any_of(damping_zones, [](const auto& zone) { return zone.towards == "waves"; });
+  }
 };
 
 const scene::Section<WavesOptions>& waves_section();

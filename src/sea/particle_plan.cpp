@@ -36,8 +36,6 @@ bool breaks(const SeaOptions& o) {
   return std::ranges::any_of(o.water, open);
 }
 
-bool starts_in_waves(const SeaOptions& o) { return o.initial && (o.initial->state == "waves" || o.initial->state == "standing"); }
-
 struct SoundSpeed {
   double value;  ///< [m/s]
   std::string from;
@@ -102,7 +100,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
   if (waves.model != "none") plan.waves = WaveField(waves, environment).components();
   plan.second_order = waves.model != "none" && wave_models().named(waves.model).second_order;
-  if (starts_in_waves(o)) plan.tank.waves = plan.waves;
+  if (o.starts_in_waves()) plan.tank.waves = plan.waves;
   if (o.initial && o.initial->state == "standing") {
     for (waves::Component& c : plan.tank.waves) c.amplitude *= 0.5, c.speed_amplitude *= 0.5;
     for (const waves::Component& c : plan.waves) {
@@ -115,7 +113,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes, plan.sensors = o.sensors;
   if (o.wavemaker) {
     plan.wavemaker = o.wavemaker;
-    if (!plan.wavemaker->ramp_s) plan.wavemaker->ramp_s = starts_in_waves(o) ? 0.0 : growth_time(waves);
+    if (!plan.wavemaker->ramp_s) plan.wavemaker->ramp_s = o.starts_in_waves() ? 0.0 : growth_time(waves);
     const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
     const sph::Paddle paddle{.flap = o.wavemaker->type == "flap", .x = t.x_m[0], .hinge = hinge, .bed = bed};
     const double reach = sph::Wavemaker(paddle, plan.waves, plan.second_order, o.wavemaker->stroke_m.value_or(0.0)).reach();
@@ -134,7 +132,6 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const ParticleOptions& p = *o.particles;
   const TankOptions& t = *o.tank;
   const bool planar = p.planar(), waved = waves.model != "none";
-  const bool led = std::ranges::any_of(o.damping_zones, [](const auto& zone) { return zone.towards == "waves"; });
   const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
@@ -179,7 +176,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
                              box.min()[0], box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]));
   }
   if (o.wavemaker && !waved) wrong("sea.wavemaker", "has no wave to make: give [waves]");
-  if (waved && !o.wavemaker && !starts_in_waves(o) && !led)
+  if (waved && !o.wavemaker && !o.starts_in_waves() && !o.led_to_waves())
     wrong("waves.model",
           "has no effect: the sea of particles has no [sea.wavemaker], no sea.initial.state = \"waves\" and no damping zone "
           "towards them",
@@ -197,8 +194,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("waves.direction_deg", "must be 0: the paddle, or the plane of the scene, makes waves along x");
   if (waved && o.wavemaker && std::cos(waves.direction) < 0.0)
     wrong("waves.direction_deg", "must be 0: the paddle stands at the lower end");
-  if (starts_in_waves(o) && !waved) wrong("sea.initial.state", "needs [waves]");
-  if (starts_in_waves(o) && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
+  if (o.starts_in_waves() && !waved) wrong("sea.initial.state", "needs [waves]");
+  if (o.starts_in_waves() && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
   if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
     wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
   if (o.wavemaker) {
@@ -328,6 +325,13 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       const bool outside_y = !planar && ((t.sides_y == "wall" && (low[1] < t.y_m[0] || high[1] > t.y_m[1])) ||
                                          (t.symmetric() && high[1] > t.y_m[1]));
       if (outside_x || outside_y) wrong(key, "stands in a wall of the tank" + size);
+      for (int axis = 0; axis < (planar ? 1 : 2); ++axis) {
+        const std::array<double, 2>& sides = axis == 0 ? t.x_m : t.y_m;
+        if ((axis == 0 ? t.sides_x : t.sides_y) == "periodic" && (low[axis] < sides[0] || high[axis] > sides[1]))
+          wrong(key, fmt::format("reaches {0} = {1:.4g} m, over a side of the tank that repeats (sea.tank.sides_{0}): water goes "
+                                 "round there, bodies do not{2}",
+                                 "xy"[axis], low[axis] < sides[0] ? low[axis] : high[axis], size));
+      }
       for (std::size_t n = 0; n < t.meshes.size(); ++n) {
         const scene::MeshOptions& m = t.meshes[n];
         if (!m.surface) continue;

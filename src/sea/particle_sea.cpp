@@ -152,7 +152,7 @@ class Sea final : public ParticleSea {
   void close() override {
     if (sea_.state().plan.stopped) throw runtime::StopAsked();
     const std::optional<NumericalFailure>& failure = sea_.state().plan.failure;
-    if (!failure) return require_bounded();
+    if (!failure) return solids_.require_inside(t_), require_bounded();
     // Who drives the window knows the scene's time, the sea its own.
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);

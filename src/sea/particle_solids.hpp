@@ -3,10 +3,14 @@
 // tests/coupled/particle_sea_test.cpp and sea_motion_test.cpp there. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "kernels/base/failure.hpp"
+#include "kernels/base/in_words.hpp"
 #include "src/sea/particle_sea.hpp"
 #include "src/sea/sph/sea_sph.hpp"
 
@@ -36,6 +40,7 @@ class ParticleSolids {
     }
     std::size_t shaped = 0;
     for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+      names_.push_back(plan.bodies[b].name);
       if (plan.bodies[b].shapes.empty()) continue;
       owner_of_body_[b] = tank.bodies[shaped++];
       sea_.add_body(owner_of_body_[b], start[b], plan.bodies[b].mass / share_);
@@ -65,6 +70,32 @@ class ParticleSolids {
       if (!owner_of_body_[b]) continue;
       state_.loads[b] = of_scene(sea_.load_on(owner_of_body_[b], at));
       state_.contacts[b] = of_scene(contact_on(sea_.contacts(), owner_of_body_[b], at));
+    }
+  }
+  /// Throws NumericalFailure where a body has come over a side that repeats: its particles would go round, one by one, and turn
+  /// it from the other side.
+  void require_inside(double t_s) const {
+    const sph::Domain<dim>& domain = sea_.state().columns.domain();
+    for (const sph::Solid& solid : sea_.state().solids) {
+      const auto body = std::ranges::find(owner_of_body_, solid.owner) - owner_of_body_.begin();
+      if (body == std::ssize(owner_of_body_)) continue;  // the paddle
+      std::array<double, dim> low, high;
+      low.fill(1e300), high.fill(-1e300);
+      for (const Eigen::Vector3d& local : solid.local) {
+        const auto x = sph::from_earth<dim>(state_.motions[std::size_t(body)].point(local));
+        for (int k = 0; k < dim; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+      }
+      for (int k = 0; k < dim - 1; ++k) {
+        if (!domain.periodic[k] || (low[k] >= domain.low[k] && high[k] <= domain.high[k])) continue;
+        const bool below = low[k] < domain.low[k];
+        const double limit = below ? domain.low[k] : domain.high[k];
+        const std::string axis(1, "xy"[k]), name = names_[std::size_t(body)];
+        throw NumericalFailure("t = " + in_words(t_s) + " s: body " + name + " reaches " + axis + " = " +
+                                   in_words(below ? low[k] : high[k]) + " m, over the side at " + in_words(limit) +
+                                   " m that repeats (sea.tank.sides_" + axis +
+                                   "): water goes round there, bodies do not; set the sides farther off, or moor it",
+                               "bodies." + name, long(sea_.state().work.steps), t_s, limit);
+      }
     }
   }
   /// Both, within a window: takes loads, asks the driver for the places, sets those of the sea's solids. What the driver throws
@@ -112,6 +143,7 @@ class ParticleSolids {
   std::optional<sph::Wavemaker> wavemaker_;
   std::uint16_t paddle_ = 0;
   std::vector<std::uint16_t> owner_of_body_;
+  std::vector<std::string> names_;  ///< of the scene's bodies
   SolidsState state_;
 };
 

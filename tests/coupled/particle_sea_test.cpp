@@ -190,6 +190,17 @@ TEST_CASE("water leaves through open sides and over the edge, counted apart from
   CHECK(splashed["sea.lost_particles"].back() == 0.0);
 }
 
+TEST_CASE("a body that comes over a side that repeats stops the run by its name", "[coupled][sea][fast]") {
+  const test::Folder folder("over_side");
+  std::vector<std::string> drifting = small_box;
+  for (const char* more :
+       {"sea.tank.sides_x='periodic'", "bodies.box.displacement_m=[0.7, 0.0, 0.0]", "bodies.box.velocity_m_s=[1.0, 0.0, 0.0]"})
+    drifting.push_back(more);
+  const io::Summary summary = test::run_scene(test::input(box), drifting, folder.path());
+  CHECK(summary.exit_code == 3);
+  CHECK_THAT(summary.exit_reason, Contains("body box reaches x = 1.0") && Contains("sea.tank.sides_x"));
+}
+
 TEST_CASE("a sea starts from the state of another run", "[coupled][sea][fast]") {
   const test::Folder first("sea_first"), second("sea_second");
   test::run_scene(test::input(dam), {"sea.particles.spacing_m=0.1", "time.end_s=0.2"}, first.path());
@@ -329,6 +340,8 @@ TEST_CASE("bad seas of particles are refused by key before anything is made", "[
   CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.0, 0.0, -0.5]"}),
              Contains("bodies.box") && Contains("below the bed"));
   CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0]"}), Contains("in a wall"));
+  CHECK_THAT(refusal(box, {"bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0]", "sea.tank.sides_x='periodic'"}),
+             Contains("bodies.box") && Contains("a side of the tank that repeats (sea.tank.sides_x)"));
   CHECK_THAT(refusal(box, {"sea.model='hydrostatic'"}), Contains("has no effect"));
   CHECK_THAT(refusal(box, {"sea.initial.settle_s=1.01"}), Contains("settle_s") && Contains("windows"));
 }

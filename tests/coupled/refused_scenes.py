@@ -180,6 +180,7 @@ aero.grid.coarsen=5
 aero.grid.y_plus=-1.0
 start.air_steps=-1
 coupling.scheme="css" & time.window_s=60.0 & time.end_s=600.0 : time.window_s
+sea.tank.y_m=[-44.0, 44.0] : bodies.platform
 """,
     "leble_barakos/rotor_demo.toml": EVERY + """
 wind.speed_m_s=-11.0

@@ -15,11 +15,32 @@ namespace {
 constexpr double h_over_spacing = 1.5;  // support of three spacings
 constexpr int turns = 200;              // the concentration is then even to a few per mille (tank_test.cpp)
 
+/// Adds those images of the points that are within `reach` of the sides; of both horizontal axes one after the other, so that
+/// corners have theirs.
+template <int dim>
+void add_images(std::vector<std::array<double, dim>>& points, const ImageSides& sides, double reach) {
+  for (int k = 0; k < dim - 1; ++k) {
+    if (!sides.period[std::size_t(k)]) continue;
+    const auto [low, high] = *sides.period[std::size_t(k)];
+    for (std::size_t n = 0, end = points.size(); n < end; ++n) {
+      std::array<double, dim> image = points[n];
+      const double x = image[k];
+      if (x < low + reach) image[k] = x + (high - low), points.push_back(image);
+      if (x > high - reach) image[k] = x - (high - low), points.push_back(image);
+    }
+  }
+  for (std::size_t n = 0, end = points.size(); n < end && sides.plane; ++n) {
+    std::array<double, dim> image = points[n];
+    image[1] = 2.0 * *sides.plane - image[1];
+    if (points[n][1] - *sides.plane < reach) points.push_back(image);
+  }
+}
+
 }  // namespace
 
 template <int dim>
 void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing,
-                 std::optional<double> plane) {
+                 const ImageSides& sides) {
   if (points.empty()) return;
   const KernelWendland<dim> kernel(h_over_spacing * spacing);
   const double h = kernel.h(), volume = std::pow(spacing, dim), support = 2.0 * h;
@@ -31,11 +52,7 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
   const std::size_t without_images = all.size();
   for (int turn = 0; turn < turns; ++turn) {
     all.resize(without_images);
-    for (std::size_t n = 0; n < without_images && plane; ++n) {
-      std::array<double, dim> image = all[n];
-      image[1] = 2.0 * *plane - image[1];
-      if (all[n][1] - *plane < support) all.push_back(image);
-    }
+    add_images<dim>(all, sides, support);
     const PointCells<dim> cells(all, support);
     runtime::StopRequest::give_up_if_asked();
     // Each point's way is summed by itself, in the order of the cells: the same on any number of threads.
@@ -61,8 +78,8 @@ void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const s
   points = std::move(next);
 }
 template void pack_evenly<2>(std::vector<std::array<double, 2>>&, std::span<const std::array<double, 2>>, double,
-                             std::optional<double>);
+                             const ImageSides&);
 template void pack_evenly<3>(std::vector<std::array<double, 3>>&, std::span<const std::array<double, 3>>, double,
-                             std::optional<double>);
+                             const ImageSides&);
 
 }  // namespace spindrift::sph

@@ -11,10 +11,16 @@
 
 namespace spindrift::sph {
 
+/// Sides beyond which all points have their images [m].
+struct ImageSides {
+  std::optional<double> plane;                                   ///< of symmetry: a value of the second coordinate
+  std::array<std::optional<std::array<double, 2>>, 2> period{};  ///< lower and higher side of horizontal axes that repeat
+};
+
 /// Moves the points, on all threads; `fixed` ones stay. All stand for a cell of spacing^dim. No point goes farther than a
-/// spacing. `plane`: of symmetry, a value of the second coordinate [m]; all have their images beyond it.
+/// spacing, over a side that repeats too.
 template <int dim>
 void pack_evenly(std::vector<std::array<double, dim>>& points, std::span<const std::array<double, dim>> fixed, double spacing,
-                 std::optional<double> plane = {});
+                 const ImageSides& sides = {});
 
 }  // namespace spindrift::sph

@@ -142,7 +142,11 @@ class Layout {
       visit(piece, at, look);
       piece.seeds.last = at.id;
     }
-    pack_evenly<dim>(points, fixed, spacing_of_cells(), plan_.mirrored ? std::optional(plan_.y[0]) : std::nullopt);
+    ImageSides sides;
+    if (plan_.mirrored) sides.plane = plan_.y[0];
+    if (plan_.periodic[0]) sides.period[0] = plan_.x;
+    if (plan_.periodic[1]) sides.period[1] = plan_.y;
+    pack_evenly<dim>(points, fixed, spacing_of_cells(), sides);
     for (std::size_t n = 0; n < aside.size(); ++n) {
       Moved& moved = aside[n];
       const double risen = points[n][dim - 1] - moved.position[dim - 1];
@@ -285,8 +289,17 @@ class Layout {
       return depth > layers_ * p_.spacing;
     });
   }
-  /// From the nearest body's surface, negative inside [m]; huge where none is near.
+  /// From the nearest body's surface, also over sides that repeat, negative inside [m]; huge where none is near.
   double distance_to_bodies(const Eigen::Vector3d& x) const {
+    const int along = plan_.periodic[0] ? 1 : 0, across = dim == 3 && plan_.periodic[1] ? 1 : 0;
+    const Eigen::Vector3d period(plan_.x[1] - plan_.x[0], plan_.y[1] - plan_.y[0], 0.0);
+    double nearest = 1e300;
+    for (int i = -along; i <= along; ++i)
+      for (int j = -across; j <= across; ++j)
+        nearest = std::min(nearest, distance_beside(x + period.cwiseProduct(Eigen::Vector3d(i, j, 0.0))));
+    return nearest;
+  }
+  double distance_beside(const Eigen::Vector3d& x) const {
     double nearest = 1e300;
     for (std::size_t b = 0; b < plan_.bodies.size(); ++b) {
       const TankPlan::Body& body = plan_.bodies[b];

@@ -156,6 +156,34 @@ TEST_CASE("water is fitted to a body: as much is missing as it displaces, and wh
   }
 }
 
+TEST_CASE("water is fitted to a body over sides that repeat as in the middle of the tank", "[sea][sph][fast]") {
+  TankPlan plan = tank(3.0, 2.0, 1.0);
+  plan.periodic = {true, true};
+  plan.bodies = {{"ball", {Sphere{Eigen::Vector3d::Zero(), 0.4}}, {}}};
+  const auto laid_out = [&](double x, double y) {  // a whole number of places from the middle
+    plan.bodies[0].motion.position = {x, y, -0.1};
+    Parameters p = particles(0.1, 1.0);
+    std::vector<std::array<double, 3>> water;
+    for_owner(lay_out<3>(plan, p), water_owner, [&](const Seed<3>& seed) {
+      water.push_back({std::remainder(seed.position[0] - x, 3.0), std::remainder(seed.position[1] - y, 2.0), seed.position[2]});
+    });
+    return water;
+  };
+  const auto middle = laid_out(1.537, 1.021);  // no two places are as far from the ball
+  const auto [x, y] =
+      GENERATE(std::pair{0.037, 1.021}, std::pair{2.637, 0.121}, std::pair{1.537, 1.621}, std::pair{2.937, 0.021});
+  const auto beside = laid_out(x, y);
+  REQUIRE(beside.size() == middle.size());
+  double farthest = 0.0;
+  for (const auto& a : beside) {
+    if (std::hypot(a[0], a[1], a[2] + 0.1) > 0.8) continue;
+    double nearest = 1e300;
+    for (const auto& b : middle) nearest = std::min(nearest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+    farthest = std::max(farthest, nearest);
+  }
+  CHECK(farthest < 1e-3);
+}
+
 TEST_CASE("seeds made anew are the same at every visit, water moved aside by bodies too", "[sea][sph][fast]") {
   TankPlan plan;
   plan.x = {-3.0, 3.0}, plan.depth = 2.0, plan.top = 1.0;
