@@ -122,8 +122,8 @@ const Section<ParticleOptions>& particle_section() {
                    {"verlet", sph::StepChoice::verlet, "one evaluation, half the cost, half the accuracy"}},
                   "Time step of the particles.")
           .integer("verlet_join_every", &ParticleOptions::verlet_join_every, "-",
-                   "Steps from one that ties the two chains of Verlet's "
-                   "step together to the next.",
+                   "Steps from one that ties the two chains of Verlet's step together to the next. With 40 waves blow up at the "
+                   "default cfl, with 20 at 0.3.",
                    between(2, 1000))
           .only_if("step", {"verlet"})
           .number("cfl", &ParticleOptions::cfl, "-", "Courant number of the acoustic, force and viscous limits.",

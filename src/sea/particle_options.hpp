@@ -47,7 +47,7 @@ struct ParticleOptions {
   double cfl = 0.2;
   int limits_every = 1;  ///< substeps between two checks of the limits
   std::string precision = "single";
-  int verlet_join_every = 40;
+  int verlet_join_every = 10;
   std::optional<int> lost_at_most;
   double jitter = 0.0;  ///< of the water's particles at the start, in spacings
   std::int64_t jitter_seed = 1;

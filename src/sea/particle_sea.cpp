@@ -148,20 +148,24 @@ class Sea final : public ParticleSea {
     plan.left = 1.0;                               // until the driver calls a step the last
     plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone
     plan.failure.reset(), plan.stopped = false;
+    if (!balance_) balance_ = Balance{measured(), sea_.time()};
+    between_windows_ = false;
   }
   void close() override {
     if (sea_.state().plan.stopped) throw runtime::StopAsked();
     const std::optional<NumericalFailure>& failure = sea_.state().plan.failure;
-    if (!failure) return solids_.require_inside(t_), require_bounded();
+    if (!failure) return solids_.require_inside(t_), require_bounded(), require_energy();
     // Who drives the window knows the scene's time, the sea its own.
     const std::string what = failure->what(), told = what.starts_with("t = ") ? "" : "t = " + in_words(t_) + " s: ";
     throw NumericalFailure(told + what, failure->place, failure->step, told.empty() ? failure->time_s : t_, failure->limit);
   }
-  void take_snapshot(int slot) override { snapshots_[std::size_t(slot)] = {sea_.save(), solids_.state(), sea_.state().records}; }
+  void take_snapshot(int slot) override {
+    snapshots_[std::size_t(slot)] = {sea_.save(), solids_.state(), sea_.state().records, balance_};
+  }
   void return_to(int slot) override {
     const Saved& n = snapshots_[std::size_t(slot)];
     sea_.restore(n.sea);
-    solids_.set(n.solids), sea_.state().records = n.records;
+    solids_.set(n.solids), sea_.state().records = n.records, balance_ = n.balance, between_windows_ = true;
   }
   std::span<const Wrench> loads() const override { return solids_.state().loads; }
   std::span<const Wrench> contacts() const override { return solids_.state().contacts; }
@@ -191,46 +195,7 @@ class Sea final : public ParticleSea {
   }
   sph::Wavemaker::Stroke paddle(double t) const override { return solids_.paddle(t); }
 
-  /// Of all ranks. The energy has the same bits wherever particles lie in memory, which depends on when they were last sorted.
-  Extent extent() const override {
-    struct Part {
-      double x_max = -1e300, z_max = -1e300;
-      std::int64_t particles = 0;
-      BinnedSum speed2, height, compression;
-      sph::EnergyFlow flow;
-    };
-    const Store<dim, Real>& store = sea_.store();
-    Part all;
-    sph::for_water_particles(store, [&](std::size_t slot) {
-      all.x_max = std::max(all.x_max, store.x[0][slot]), all.z_max = std::max(all.z_max, store.x[dim - 1][slot]);
-      double speed2 = 0.0;
-      for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
-      all.speed2.add(speed2), all.height.add(store.x[dim - 1][slot]);
-      all.compression.add(sea_.parameters().eos.compression_energy(store.deviation[slot])), ++all.particles;
-    });
-    all.flow = sea_.state().energy;
-    if (ranks_ > 1) {
-      runtime::Packer mine;
-      mine.put_one(std::exchange(all, {}));
-      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take())) {
-        const Part part = runtime::Unpacker(bytes).template one<Part>();
-        all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2.add(part.speed2);
-        all.height.add(part.height), all.compression.add(part.compression), all.particles += part.particles;
-        all.flow = sum(all.flow, part.flow);
-      }
-    }
-    const sph::Parameters& p = sea_.parameters();
-    const double half = 0.5 * p.spacing, mass = p.mass(dim) * share_, quantum = sph::energy_quantum(p, dim) * share_;
-    return {.x_max = all.x_max + half,
-            .z_max = all.z_max + half,
-            .mass = mass * double(all.particles),
-            .kinetic_energy = 0.5 * mass * all.speed2.value(),
-            .potential_energy = mass * p.gravity * all.height.value(),
-            .compression_energy = mass * all.compression.value(),
-            .work_of_solids = quantum * double(all.flow.from_solids),
-            .dissipated = quantum * double(all.flow.from_solids - all.flow.onto_water),
-            .absorbed = quantum * double(all.flow.absorbed)};
-  }
+  Extent extent() const override { return balance_ && between_windows_ ? balance_->extent : measured(); }
 
   ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,
                         bool solids) const override {
@@ -277,6 +242,7 @@ class Sea final : public ParticleSea {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
                                     state.time_s, long(state.steps));
     sea_.state().energy = runtime::rank_in(comm_) == 0 ? state.energy : sph::EnergyFlow{};
+    balance_.reset();
     // A sea with other sensors than the state's begins their means anew.
     std::vector<std::span<const double>> records;
     for (std::span<const double> rest = state.sensors; !rest.empty();) {
@@ -306,6 +272,47 @@ class Sea final : public ParticleSea {
             .time_s = sea_.time(),
             .steps = sea_.state().work.steps};
   }
+  /// Of all ranks. The energy has the same bits wherever particles lie in memory, which depends on when they were last sorted.
+  Extent measured() const {
+    struct Part {
+      double x_max = -1e300, z_max = -1e300;
+      std::int64_t particles = 0;
+      BinnedSum speed2, height, compression;
+      sph::EnergyFlow flow;
+    };
+    const Store<dim, Real>& store = sea_.store();
+    Part all;
+    sph::for_water_particles(store, [&](std::size_t slot) {
+      all.x_max = std::max(all.x_max, store.x[0][slot]), all.z_max = std::max(all.z_max, store.x[dim - 1][slot]);
+      double speed2 = 0.0;
+      for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
+      all.speed2.add(speed2), all.height.add(store.x[dim - 1][slot]);
+      all.compression.add(sea_.parameters().eos.compression_energy(store.deviation[slot])), ++all.particles;
+    });
+    all.flow = sea_.state().energy;
+    if (ranks_ > 1) {
+      runtime::Packer mine;
+      mine.put_one(std::exchange(all, {}));
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take())) {
+        const Part part = runtime::Unpacker(bytes).template one<Part>();
+        all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2.add(part.speed2);
+        all.height.add(part.height), all.compression.add(part.compression), all.particles += part.particles;
+        all.flow = sum(all.flow, part.flow);
+      }
+    }
+    const sph::Parameters& p = sea_.parameters();
+    const double half = 0.5 * p.spacing, mass = p.mass(dim) * share_, quantum = sph::energy_quantum(p, dim) * share_;
+    return {.x_max = all.x_max + half,
+            .z_max = all.z_max + half,
+            .mass = mass * double(all.particles),
+            .kinetic_energy = 0.5 * mass * all.speed2.value(),
+            .potential_energy = mass * p.gravity * all.height.value(),
+            .compression_energy = mass * all.compression.value(),
+            .work_of_solids = quantum * double(all.flow.from_solids),
+            .dissipated = quantum * double(all.flow.from_solids - all.flow.onto_water),
+            .absorbed = quantum * double(all.flow.absorbed)};
+  }
+
   /// The last step's end, which no step has checked.
   void require_bounded() const {
     const std::optional<sph::Beyond> beyond = sph::beyond_bounds(sea_.store(), sea_.parameters(), comm_);
@@ -314,6 +321,33 @@ class Sea final : public ParticleSea {
                            beyond->limit);
   }
 
+  /// Steps that are too long make energy, which dissipation takes again: neither bounds nor the speed of the water tell it.
+  void require_energy() {
+    constexpr double memory = 100.0, most = 1.5;  // of the time sound takes through h; of what the water moves with
+    const Extent now = measured(), before = balance_->extent;
+    const sph::Parameters& p = sea_.parameters();
+    const double worked = now.work_of_solids - before.work_of_solids, absorbed = now.absorbed - before.absorbed;
+    const auto kept = [](const Extent& e) { return e.kinetic_energy + e.potential_energy + e.compression_energy + e.dissipated; };
+    double made = balance_->made * std::exp(-(sea_.time() - balance_->time_s) * p.eos.c0 / (memory * p.h()));
+    if (now.mass == before.mass) made += kept(now) - kept(before) - worked + absorbed;  // water that leaves takes its own along
+    const double moves =
+        std::max({before.kinetic_energy, now.kinetic_energy, std::abs(worked), std::abs(absorbed), 0.1 * now.compression_energy});
+    const double at_start = balance_->made;  // which no shorter steps of this window undo
+    balance_ = Balance{now, sea_.time(), made}, between_windows_ = true;
+    if (made <= 2.0 * most * moves && at_start <= most * moves) return;
+    throw NumericalFailure("t = " + in_words(t_) + " s: sea: its steps have made " + in_words(std::max(made, at_start)) +
+                               " J out of nothing within " + in_words(memory * p.h() / p.eos.c0) + " s, the limit is " +
+                               in_words(most * moves) +
+                               " J, half as much again as the water moves with; take a smaller sea.particles.cfl",
+                           "sea", long(sea_.state().work.steps), t_, most * moves);
+  }
+
+  /// Of the water's energy between windows.
+  struct Balance {
+    Extent extent;
+    double time_s;      ///< of the sea's clock
+    double made = 0.0;  ///< of late, out of nothing [J]
+  };
   double share_, width_, settle_damping_;
   MPI_Comm comm_;
   int ranks_;
@@ -322,11 +356,14 @@ class Sea final : public ParticleSea {
   std::vector<std::uint16_t> owner_;  ///< of this rank's run of identities
   ParticleSolids<dim, Real> solids_;
   double t_ = 0.0;  ///< at the window's start
+  std::optional<Balance> balance_;
+  bool between_windows_ = true;
   // Windows as tasks.
   struct Saved {
     sph::Saved<dim> sea;
     SolidsState solids;
     std::vector<sph::PatchRecord> records;
+    std::optional<Balance> balance;
   };
   WindowDriver* driver_ = nullptr;
   sph::StepDriver steps_;  ///< asks driver_

@@ -87,6 +87,32 @@ TEST_CASE("every scheme runs from a scene file", "[coupled][sea][fast]") {
   CHECK(history["box.z_m"].back() > 0.03);
 }
 
+TEST_CASE("waves by Verlet's step keep their energy with its defaults", "[coupled][sea][fast]") {
+  const test::Folder folder("verlet");
+  test::run_scene(test::input("validation/standing_wave/standing_wave.toml"),
+                  {"sea.particles.step='verlet'", "sea.particles.spacing_m=0.04", "time.end_s=2.0"}, folder.path());
+  const scene::Columns history = scene::read_columns((folder.path() / "history.csv").string());
+  const auto kinetic = history["sea.kinetic_energy_J"], potential = history["sea.potential_energy_J"],
+             compression = history["sea.compression_energy_J"], dissipated = history["sea.dissipated_J"];
+  CHECK(std::ranges::max(kinetic) > 0.1);
+  CHECK(std::ranges::max(kinetic) < 0.25);  // rho g a^2 / 4 per area; with the chains tied every 40 steps 255 J
+  for (std::size_t n = 0; n < kinetic.size(); ++n)
+    CHECK(std::abs(kinetic[n] + potential[n] + compression[n] + dissipated[n] - kinetic[0] - potential[0] - compression[0]) <
+          4e-3);
+}
+
+TEST_CASE("steps that make energy out of nothing stop the run", "[coupled][sea][fast]") {
+  const test::Folder folder("blown_up");
+  const auto [cfl, join] = GENERATE(std::pair{"0.2", "40"}, std::pair{"0.6", "10"});
+  const io::Summary summary =
+      test::run_scene(test::input("validation/standing_wave/standing_wave.toml"),
+                      {"sea.particles.step='verlet'", "sea.particles.spacing_m=0.04", "time.end_s=2.0",
+                       std::string("sea.particles.cfl=") + cfl, std::string("sea.particles.verlet_join_every=") + join},
+                      folder.path());
+  CHECK(summary.exit_code == 3);
+  CHECK_THAT(summary.exit_reason, Contains("J out of nothing") && Contains("sea.particles.cfl"));
+}
+
 TEST_CASE("a body that comes to lie on the bed is carried by its contact, named in the output", "[coupled][sea][fast]") {
   // 400 kg in the room of 160 kg of water: at rest the bed carries at least the difference, more where no water is left
   // underneath.

@@ -47,7 +47,7 @@ struct Parameters {
   double contact_stiffness = 1.0;  ///< of a face against a face, over the water's own; contact.hpp says how
   double contact_damping = 0.2;    ///< share of critical for one layer of the weight of water
   double contact_friction = 0.0;   ///< Coulomb's coefficient
-  int verlet_join_every = 40;
+  int verlet_join_every = 10;
   std::size_t lost_at_most = 0;    ///< particles that may slip through walls before the run stops
   std::size_t left_at_most = 0;    ///< the same over the walls' upper edge
   double drift_over_d = 0.5;       ///< distance a particle may go between two sorts, in spacings
