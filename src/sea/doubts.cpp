@@ -311,18 +311,18 @@ std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOpti
   // docs/user/choosing.md: a wave tank at five particles to the height is right within 1 %, floats by ten to the draft.
   constexpr double to_height = 4.0, to_draft = 5.0;
   const double spacing = sea.particles->spacing_m;
-  if (const double n = waves.height_m / spacing; waves.model != "none" && waves.height_m > 0.0 && n < to_height)
+  if (const double n = waves.height_m / spacing; waves.model != "none" && waves.height_m > 0.0 && n < to_height) {
     notes.push_back(
         fmt::format("{:.2g} particles to the height of the waves, {:.4g} m: too coarse to show them; "
                     "sea.particles.spacing_m below {:.3g} m makes it {:g}",
                     n, waves.height_m, waves.height_m / to_height, to_height));
-  // docs/verification/sea.md: 8, 4 and 1.5 % at 0.75, 1.5 and 2.5 particles to the height.
-  if (const double n = waves.height_m / spacing;
-      sea.starts_in_waves() && !sea.led_to_waves() && waves.height_m > 0.0 && n < to_height)
-    notes.push_back(fmt::format(
-        "waves left alone with {:.2g} particles to their height lose some {:.1g} % of it in each period; [[sea.damping_zones]] "
-        "with towards = \"waves\" keep it",
-        n, 6.0 / n));
+    // docs/verification/sea.md: 8, 4 and 1.5 % at 0.75, 1.5 and 2.5 particles to the height.
+    if (sea.starts_in_waves() && !sea.led_to_waves())
+      notes.push_back(
+          fmt::format("waves left alone with {:.2g} particles to their height lose some {:.1g} % of it in each period; "
+                      "[[sea.damping_zones]] with towards = \"waves\" keep it",
+                      n, 6.0 / n));
+  }
   if (const double n = draft / spacing; draft > 0.0 && n < to_draft)
     notes.push_back(
         fmt::format("{:.2g} particles to the draft of {:.4g} m: its loads are rough; sea.particles.spacing_m below "

@@ -279,26 +279,35 @@ class Sea final : public ParticleSea {
       std::int64_t particles = 0;
       BinnedSum speed2, height, compression;
       sph::EnergyFlow flow;
+      void add(const Part& part) {
+        x_max = std::max(x_max, part.x_max), z_max = std::max(z_max, part.z_max), particles += part.particles;
+        speed2.add(part.speed2), height.add(part.height), compression.add(part.compression);
+        flow = sum(flow, part.flow);
+      }
     };
     const Store<dim, Real>& store = sea_.store();
     Part all;
-    sph::for_water_particles(store, [&](std::size_t slot) {
-      all.x_max = std::max(all.x_max, store.x[0][slot]), all.z_max = std::max(all.z_max, store.x[dim - 1][slot]);
-      double speed2 = 0.0;
-      for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
-      all.speed2.add(speed2), all.height.add(store.x[dim - 1][slot]);
-      all.compression.add(sea_.parameters().eos.compression_energy(store.deviation[slot])), ++all.particles;
-    });
+#pragma omp parallel
+    {
+      const std::size_t clusters = store.clusters(), thread = std::size_t(omp_get_thread_num()),
+                        threads = std::size_t(omp_get_num_threads());
+      Part mine;
+      sph::for_water_particles(store, clusters * thread / threads, clusters * (thread + 1) / threads, [&](std::size_t slot) {
+        mine.x_max = std::max(mine.x_max, store.x[0][slot]), mine.z_max = std::max(mine.z_max, store.x[dim - 1][slot]);
+        double speed2 = 0.0;
+        for (int k = 0; k < dim; ++k) speed2 += store.v[k][slot] * store.v[k][slot];
+        mine.speed2.add(speed2), mine.height.add(store.x[dim - 1][slot]);
+        mine.compression.add(sea_.parameters().eos.compression_energy(store.deviation[slot])), ++mine.particles;
+      });
+#pragma omp critical
+      all.add(mine);
+    }
     all.flow = sea_.state().energy;
     if (ranks_ > 1) {
       runtime::Packer mine;
       mine.put_one(std::exchange(all, {}));
-      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take())) {
-        const Part part = runtime::Unpacker(bytes).template one<Part>();
-        all.x_max = std::max(all.x_max, part.x_max), all.z_max = std::max(all.z_max, part.z_max), all.speed2.add(part.speed2);
-        all.height.add(part.height), all.compression.add(part.compression), all.particles += part.particles;
-        all.flow = sum(all.flow, part.flow);
-      }
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm_, mine.take()))
+        all.add(runtime::Unpacker(bytes).template one<Part>());
     }
     const sph::Parameters& p = sea_.parameters();
     const double half = 0.5 * p.spacing, mass = p.mass(dim) * share_, quantum = sph::energy_quantum(p, dim) * share_;
@@ -338,7 +347,7 @@ class Sea final : public ParticleSea {
     throw NumericalFailure("t = " + in_words(t_) + " s: sea: its steps have made " + in_words(std::max(made, at_start)) +
                                " J out of nothing within " + in_words(memory * p.h() / p.eos.c0) + " s, the limit is " +
                                in_words(most * moves) +
-                               " J, half as much again as the water moves with; take a smaller sea.particles.cfl",
+                               " J, one and a half times what the water moves with; take a smaller sea.particles.cfl",
                            "sea", long(sea_.state().work.steps), t_, most * moves);
   }
 

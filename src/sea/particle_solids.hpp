@@ -76,6 +76,7 @@ class ParticleSolids {
   /// it from the other side.
   void require_inside(double t_s) const {
     const sph::Domain<dim>& domain = sea_.state().columns.domain();
+    if (std::ranges::find(domain.periodic, true) == domain.periodic.end()) return;
     for (const sph::Solid& solid : sea_.state().solids) {
       const auto body = std::ranges::find(owner_of_body_, solid.owner) - owner_of_body_.begin();
       if (body == std::ssize(owner_of_body_)) continue;  // the paddle

@@ -429,9 +429,9 @@ class Checks(unittest.TestCase):
         self.assertIn("blade elements", alone)
         coarse = checked("leble_barakos/case3_demo.toml")[1]
         self.assertIn("note: 0.75 particles to the height of the waves, 1.88 m", coarse)
-        alone = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period"
-        self.assertNotIn(alone, coarse)
-        self.assertIn(alone, checked("leble_barakos/case3_demo.toml", settings=('without=["sea.damping_zones"]',))[1])
+        left = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period"
+        self.assertNotIn(left, coarse)
+        self.assertIn(left, checked("leble_barakos/case3_demo.toml", settings=('without=["sea.damping_zones"]',))[1])
 
     def test_check_predicts_the_cost_of_the_papers_case_at_three_sizes(self):
         def cost(size, text=None):

@@ -54,12 +54,16 @@ double surface_height(std::span<const NearWater> water, double h) {
 }
 
 template <int dim, class Real, class Visit>
-void for_water_particles(const Store<dim, Real>& store, Visit&& visit) {
-  for (std::size_t cluster = 0; cluster < store.clusters(); ++cluster) {
+void for_water_particles(const Store<dim, Real>& store, std::size_t first, std::size_t last, Visit&& visit) {
+  for (std::size_t cluster = first; cluster < last; ++cluster) {
     if (store.owner[cluster] != 0) continue;
     for (std::size_t slot = cluster * cluster_size; slot < (cluster + 1) * cluster_size; ++slot)
       if (store.id[slot] != no_particle) visit(slot);
   }
+}
+template <int dim, class Real, class Visit>
+void for_water_particles(const Store<dim, Real>& store, Visit&& visit) {
+  for_water_particles(store, 0, store.clusters(), visit);
 }
 
 /// Difference of two places along an axis, the short way round where the axis is periodic.
