@@ -170,7 +170,8 @@ constexpr double in_motion = 1.15;
 PartCost cost_of_particles(const FloatingSystem& floating, const sea::ParticleCensus& census, double steps_per_window) {
   const coupling::Scenario& s = floating.scenario();
   const sph::Parameters& p = floating.particle_plan()->parameters;
-  const double evaluations = steps_per_window / s.time.window_s * (p.step == sph::StepChoice::verlet ? 1.0 : 2.0);
+  const double of_step = p.step == sph::StepChoice::verlet ? 1.0 : 2.0,
+               evaluations = of_step * steps_per_window / s.time.window_s;
   const int notes = floating.rotor() && is_strong(s.coupling.scheme) ? 2 : 1;
   return {.name = "sea",
           .count = double(census.particles()),
@@ -181,7 +182,8 @@ PartCost cost_of_particles(const FloatingSystem& floating, const sea::ParticleCe
           .checkpoint_bytes = sea::bytes_of_note * double(census.particles()),
           .work_per_second = evaluations,
           .work = "evaluations of all",
-          .core_seconds_per_work = in_motion * double(census.particles()) / census.evaluations_per_second,
+          .core_seconds_per_work = in_motion * double(census.particles()) / census.evaluations_per_second +
+                                   census.leading_s * double(census.water) / of_step,
           .rate = fmt::format("{:.3g} M particles per core-s, measured now on a small sea", 1e-6 * census.evaluations_per_second),
           .work_before = s.sea.settle_s() * evaluations};
 }

@@ -80,6 +80,14 @@ sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, doubl
   return patch;
 }
 
+sph::Damping damping_of(const ParticlePlan& plan) {
+  sph::Damping damping;
+  for (const DampingZoneOptions& z : plan.damping_zones)
+    damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0, z.towards == "waves"});
+  damping.waves = waves::grouped(plan.waves, plan.tank.depth);
+  return damping;
+}
+
 template <int dim, class Real>
 class Sea final : public ParticleSea {
  public:
@@ -93,9 +101,7 @@ class Sea final : public ParticleSea {
         sea_(parameters, tank.domain, tank.seeds, {.comm = world.comm}),
         particles_(tank.seeds.size()),
         solids_(sea_, plan, start, tank, tank.paddle ? std::optional(wavemaker_of(plan)) : std::nullopt) {
-    for (const DampingZoneOptions& z : plan.damping_zones)
-      sea_.state().damping.zones.push_back({z.from_m, z.to_m, z.rate_1_s, z.axis == "y" ? 1 : 0, z.towards == "waves"});
-    sea_.state().damping.waves = waves::grouped(plan.waves, plan.tank.depth);
+    sea_.state().damping = damping_of(plan);
     steps_.steps.steps_per_check = plan.options.limits_every;
     steps_.steps.choose = [this](double limit, int most) {
       const WindowDriver::Steps steps = driver_->choose(limit, most);
@@ -421,6 +427,40 @@ double measure(const sph::Parameters& scene, ParticleCensus& census) {
   return double(seeds.size()) / std::pow(n, dim) - 1.0;
 }
 
+/// What zones that lead to waves add to a step: seconds for one particle, times the share of the water that is in them.
+template <int dim>
+double measure_leading(const ParticlePlan& plan) {
+  const sph::Damping damping = damping_of(plan);
+  const sph::TankPlan& tank = plan.tank;
+  constexpr int across = 48;
+  std::vector<std::array<double, dim>> led;
+  for (int n = 0; n < across * across; ++n) {
+    std::array<double, 2> at;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto& sides = axis == 0 ? tank.x : tank.y;
+      at[axis] = sides[0] + ((axis == 0 ? n % across : n / across) + 0.5) / across * (sides[1] - sides[0]);
+    }
+    const bool inside = std::any_of(damping.zones.begin(), damping.zones.end(), [&](const sph::DampingZone& zone) {
+      return zone.to_waves && zone.rate_at(at[zone.axis]) > 0.0;
+    });
+    if (!inside) continue;
+    if constexpr (dim == 3)
+      led.push_back({at[0], at[1], -0.5 * tank.depth});
+    else
+      led.push_back({at[0], -0.5 * tank.depth});
+  }
+  const std::clock_t begin = std::clock(), at_most = CLOCKS_PER_SEC / 20;
+  std::size_t calls = 0;
+  double motion = 0.0;
+  while (calls < led.size() && std::clock() - begin < at_most)
+    for (std::size_t last = std::min(calls + 16, led.size()); calls < last; ++calls)  // the clock takes as long as a few
+      motion += sph::wave_velocity<dim>(damping, led[calls], 0.0)[0];
+  asm volatile("" : : "x"(motion));  // so that it is reckoned
+  if (calls == 0) return 0.0;
+  const double share = double(led.size()) / (across * across);
+  return share * double(std::clock() - begin) / CLOCKS_PER_SEC / double(calls);
+}
+
 /// Places of the lattice that are laid out in about a second; near bodies each takes longer.
 constexpr double laid_out_at_most = 1e6;
 
@@ -453,6 +493,7 @@ ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start
   std::vector<sph::TankCount::Body> bodies;
   ParticleCensus census = counted_or_laid_out<dim>(plan, start, p, bodies);
   const double walls_to_water = measure<dim, Real>(plan.parameters, census);
+  census.leading_s = measure_leading<dim>(plan);
   census.step_s = sph::step_limits(p.cfl, p.h(), p.eos.c0, 0.0, p.gravity, 0.0).smallest(), census.step_set_by = "sound";
   std::size_t shaped = 0;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {

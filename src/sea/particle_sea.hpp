@@ -80,6 +80,7 @@ struct ParticleCensus {
   double step_s = 0.0;                  ///< largest step at rest
   std::string step_set_by;              ///< "sound", "body NAME"
   double evaluations_per_second = 0.0;  ///< measured on a small sea of the same schemes, one thread
+  double leading_s = 0.0;               ///< what zones towards the waves add to a step, for each particle of the water; measured
   struct Body {
     std::string name;
     double volume_m3 = 0.0, wetted_m3 = 0.0;  ///< that its particles stand for: in all, and under z = 0 at the start

@@ -21,6 +21,35 @@ SCENES = {
     "particles in space, most walls dry": ("inputs/validation/dam_break/obstacle.toml", [], 0.04),
 }
 
+LED = """
+[time]
+end_s = 1.0
+window_s = 0.01
+[environment]
+water_depth_m = 0.5
+[waves]
+model = "jonswap"
+height_m = 0.01
+period_s = 1.0
+components = 20000
+[sea]
+model = "sph"
+[sea.particles]
+dimensions = "2"
+spacing_m = 0.02
+[sea.tank]
+x_m = [0.0, 1.0]
+top_m = 0.1
+sides_x = "periodic"
+[sea.initial]
+state = "waves"
+[[sea.damping_zones]]
+from_m = 0.0
+to_m = 0.5
+rate_1_s = 2.0
+towards = "{}"
+"""
+
 
 class Forecasts(Folder):
     def test_memory_and_counts_are_those_of_the_run(self):
@@ -58,6 +87,16 @@ class Forecasts(Folder):
         said = spindrift("check", tank, settings=[f"sea.particles.spacing_m={fits}"])
         self.assertEqual(said.returncode, 0, said.stderr)
         self.assertLess(float(re.search(r"^  memory +(\S+) GB", said.stdout, re.M).group(1)), float(there))
+
+    def test_zones_that_lead_to_many_waves_are_in_the_cost(self):
+        cost = {}
+        for towards in ("rest", "waves"):
+            scene = self.path / f"{towards}.toml"
+            scene.write_text(LED.format(towards))
+            said = spindrift("check", scene)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            cost[towards] = float(re.search(r"^  predicted core-hours +(\S+)", said.stdout, re.M).group(1))
+        self.assertGreater(cost["waves"], 5.0 * cost["rest"])  # 20,000 waves for each particle of half the water: fifty times its pairs
 
     def memory(self, said, measured):
         if sanitized():
