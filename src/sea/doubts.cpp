@@ -126,11 +126,17 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   if (sea.tank->top_m > longest)
     doubts.push_back({"sea.tank.top_m", fmt::format("{:.4g} m for a tank {:.4g} m long", sea.tank->top_m, longest),
                       "walls lower than the tank is long", "look at its unit: m above still water"});
-  if (const double waves_in = wavy ? along / length : 0.0;
-      wavy && sea.tank->sides_x == "periodic" && std::abs(waves_in - std::round(waves_in)) > 0.1)
-    doubts.push_back({"sea.tank.x_m",
-                      fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m", along, waves_in, length),
+  const auto doubt_sides = [&](const char* key, const std::string& sides, const std::array<double, 2>& ends, double cosine) {
+    const double across = ends[1] - ends[0], waves_in = across / length * std::abs(cosine);
+    if (!wavy || sides != "periodic" || std::abs(waves_in - std::round(waves_in)) <= 0.1) return;
+    const std::string heading =
+        std::abs(cosine) > 0.999 ? "" : fmt::format(" towards {:.4g} degrees", waves.direction * 180.0 / pi);
+    doubts.push_back({key,
+                      fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m{}", across, waves_in, length, heading),
                       "a whole number of waves", "where the sides meet the waves have a step"});
+  };
+  doubt_sides("sea.tank.x_m", sea.tank->sides_x, sea.tank->x_m, std::cos(waves.direction));
+  doubt_sides("sea.tank.y_m", sea.tank->sides_y, sea.tank->y_m, std::sin(waves.direction));
   if (constexpr double most = 3.0; e.water_depth > most * longest)
     doubts.push_back({"environment.water_depth_m", fmt::format("{:.4g} m in a tank {:.4g} m long", e.water_depth, longest),
                       fmt::format("up to {:g} times its length", most),
