@@ -113,6 +113,7 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
                 const BodiesInSea& bodies) {
   if (!sea.tank) return;
   const bool wavy = waves.model != "none" && waves.period_s > 0.0;
+  const bool regular = wavy && wave_models().named(waves.model).regular;
   const double omega = wavy ? 2.0 * pi / waves.period_s : 0.0, length = wavy ? wave_length(waves.period_s, e) : 0.0;
   const double along = sea.tank->x_m[1] - sea.tank->x_m[0];
   if (wavy && sea.tank->top_m < 0.75 * waves.height_m)
@@ -126,17 +127,27 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   if (sea.tank->top_m > longest)
     doubts.push_back({"sea.tank.top_m", fmt::format("{:.4g} m for a tank {:.4g} m long", sea.tank->top_m, longest),
                       "walls lower than the tank is long", "look at its unit: m above still water"});
-  const auto doubt_sides = [&](const char* key, const std::string& sides, const std::array<double, 2>& ends, double cosine) {
+  const auto doubt_sides = [&](const char* key, const std::string& axis, const std::string& sides,
+                               const std::array<double, 2>& ends, double cosine) {
     const double across = ends[1] - ends[0], waves_in = across / length * std::abs(cosine);
-    if (!wavy || sides != "periodic" || std::abs(waves_in - std::round(waves_in)) <= 0.1) return;
+    const bool fit = std::abs(waves_in - std::round(waves_in)) <= 0.1 && (regular || std::abs(cosine) < 1e-9);
+    const auto led = [&](double end) {
+      return std::any_of(sea.damping_zones.begin(), sea.damping_zones.end(),
+                         [&](const DampingZoneOptions& z) { return z.axis == axis && z.towards == "waves" && z.to_m == end; });
+    };
+    if (!wavy || sides != "periodic" || fit || (led(ends[0]) && led(ends[1]))) return;
     const std::string heading =
         std::abs(cosine) > 0.999 ? "" : fmt::format(" towards {:.4g} degrees", waves.direction * 180.0 / pi);
-    doubts.push_back({key,
-                      fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m{}", across, waves_in, length, heading),
-                      "a whole number of waves", "where the sides meet the waves have a step"});
+    doubts.push_back(
+        {key,
+         regular ? fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m{}", across, waves_in, length, heading)
+                 : fmt::format("{:.4g} m with periodic sides for waves of many lengths", across),
+         "a whole number of waves",
+         "where the sides meet the waves have a step; [[sea.damping_zones]] up to both of them with "
+         "towards = \"waves\" keep it there"});
   };
-  doubt_sides("sea.tank.x_m", sea.tank->sides_x, sea.tank->x_m, std::cos(waves.direction));
-  doubt_sides("sea.tank.y_m", sea.tank->sides_y, sea.tank->y_m, std::sin(waves.direction));
+  doubt_sides("sea.tank.x_m", "x", sea.tank->sides_x, sea.tank->x_m, std::cos(waves.direction));
+  doubt_sides("sea.tank.y_m", "y", sea.tank->sides_y, sea.tank->y_m, std::sin(waves.direction));
   if (constexpr double most = 3.0; e.water_depth > most * longest)
     doubts.push_back({"environment.water_depth_m", fmt::format("{:.4g} m in a tank {:.4g} m long", e.water_depth, longest),
                       fmt::format("up to {:g} times its length", most),

@@ -236,13 +236,14 @@ const Section<DampingZoneOptions>& damping_zone_section() {
   static const auto section =
       Section<DampingZoneOptions>("damping_zones",
                                   "A stretch of x or y where the water is brought to rest, or to the motion w of [waves]: dv/dt "
-                                  "= rate s^2 (w - v), s from 0 to 1.")
+                                  "= rate s^2 (w - v), s from 0 to 1; towards waves to 1 in the middle and back to 0.")
           .number("from_m", &DampingZoneOptions::from_m, "m", "Where the damping begins.")
           .required()
-          .number("to_m", &DampingZoneOptions::to_m, "m", "Where it has its full rate; below from_m for a zone at the lower end.")
+          .number("to_m", &DampingZoneOptions::to_m, "m",
+                  "Where it has its full rate, towards waves its end; below from_m for a zone at the lower end.")
           .required()
-          .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s", "Full rate; about the waves' angular frequency times 2 to 5.",
-                  positive())
+          .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s",
+                  "Full rate; about the waves' angular frequency times 2 to 5, towards waves times 8 to 30.", positive())
           .required()
           .choice("axis", &DampingZoneOptions::axis, {{"x", "along the tank"}, {"y", "across it, in 3-D"}},
                   "Direction of the stretch.")

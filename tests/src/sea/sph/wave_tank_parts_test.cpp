@@ -128,7 +128,7 @@ TEST_CASE("a zone that leads to waves leaves of the difference to their motion w
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
     if (store.id[slot] == no_particle) continue;
     const double x = store.x[0][slot], y = store.x[1][slot], z = store.x[2][slot];
-    const double s = std::clamp((x - 4.0) / 4.0, 0.0, 1.0), to_rest = std::clamp((2.0 - x) / 2.0, 0.0, 1.0);
+    const double s = std::max(0.0, 1.0 - std::abs(x - 6.0) / 2.0), to_rest = std::clamp((2.0 - x) / 2.0, 0.0, 1.0);
     const waves::Component& c = sea[0];
     const double phase = c.wave_number * x - c.angular_frequency * (t + ahead) + c.phase, k = c.wave_number;
     const double over = z > 0.0 ? 1.0 : 0.0, at = z > 0.0 ? 0.0 : z;  // above still water along the tangent
