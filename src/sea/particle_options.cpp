@@ -234,9 +234,10 @@ const Section<WavemakerOptions>& wavemaker_section() {
 
 const Section<DampingZoneOptions>& damping_zone_section() {
   static const auto section =
-      Section<DampingZoneOptions>("damping_zones",
-                                  "A stretch of x or y where the water is brought to rest, or to the motion w of [waves]: dv/dt "
-                                  "= rate s^2 (w - v), s from 0 to 1; towards waves to 1 in the middle and back to 0.")
+      Section<DampingZoneOptions>(
+          "damping_zones",
+          "A stretch of x or y where the water is brought to rest, or to the motion w of [waves]: dv/dt "
+          "= rate s^2 (w - v), s from 0 to 1; towards waves to 1 in the middle and back to 0, and there to rest.")
           .number("from_m", &DampingZoneOptions::from_m, "m", "Where the damping begins.")
           .required()
           .number("to_m", &DampingZoneOptions::to_m, "m",

@@ -15,18 +15,22 @@
 namespace spindrift::sph {
 
 /// No damping at `from`, the full rate at `to` and beyond; to < from for a zone at the lower end [m], [1/s]. Axis: 0 x, 1 y. A
-/// zone that leads to waves has its full rate in the middle and none at `to` and beyond: there, at a wall or where sides that
-/// repeat meet, the waves need not fit, and water that has to follow them on both sides has nowhere to go. Led up to the sides of
-/// a tank 1.6 waves long they have half their height in the middle, by this 0.95.
+/// zone that leads to waves does so at its full rate in the middle and no more at `to`: there, at a wall or where sides that
+/// repeat meet, the waves need not fit, and water that has to follow them on both sides has nowhere to go. From the middle on it
+/// is brought to rest, at a fifth of the rate at `to`, lest it sways to and fro between two such zones.
 struct DampingZone {
   double from, to, rate;
   int axis = 0;
   bool to_waves = false;  ///< to the motion of Damping::waves, not to rest
   double rate_at(double x) const {
-    double s = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    if (to_waves) s = 1.0 - std::abs(2.0 * s - 1.0);
+    const double s = along(x), to_rest = to_waves ? std::sqrt(0.2) * std::max(0.0, 2.0 * s - 1.0) : s;
+    return rate * to_rest * to_rest + rate_to_waves(x);
+  }
+  double rate_to_waves(double x) const {  ///< that part of it
+    const double s = to_waves ? 1.0 - std::abs(2.0 * along(x) - 1.0) : 0.0;
     return rate * s * s;
   }
+  double along(double x) const { return std::clamp((x - from) / (to - from), 0.0, 1.0); }  ///< from 0 to 1
 };
 
 /// What damps the water after each step; nothing by default.
@@ -61,9 +65,8 @@ void damp(Store<dim, Real>& store, const Damping& damping, double t, double dt, 
       if (store.id[slot] == no_particle) continue;
       double rate = damping.everywhere, to_waves = 0.0;
       for (const DampingZone& zone : damping.zones) {
-        const double of_zone = zone.rate_at(store.x[zone.axis][slot]);
-        rate += of_zone;
-        if (zone.to_waves) to_waves += of_zone;
+        rate += zone.rate_at(store.x[zone.axis][slot]);
+        to_waves += zone.rate_to_waves(store.x[zone.axis][slot]);
       }
       if (rate == 0.0) continue;
       const double factor = std::exp(-rate * dt);
