@@ -5,9 +5,6 @@
 // these two are left out.
 // SPDX-License-Identifier: Apache-2.0
 #include <mpi.h>
-#if defined(OPEN_MPI)
-#include <mpi-ext.h>  // persistent collectives before MPI 4
-#endif
 
 #include <cstdint>
 #include <cstring>
@@ -106,16 +103,14 @@ template <class Value>
 class OfMpi {
  public:
   OfMpi(const runtime::World& world, std::span<const double> partials, std::span<double> sums)
-      : partials_(partials), sum_(sums[0]), first_(std::uint32_t(world.rank) * std::uint32_t(partials.size())) {
+      : comm_(world.comm),
+        partials_(partials),
+        sum_(sums[0]),
+        first_(std::uint32_t(world.rank) * std::uint32_t(partials.size())) {
     if constexpr (std::is_same_v<Value, Tree>) {
       MPI_Type_contiguous(int(sizeof(Tree)), MPI_BYTE, &type_), MPI_Type_commit(&type_);
       MPI_Op_create(join_trees, 0, &operation_);
     }
-#if MPI_VERSION >= 4
-    MPI_Allreduce_init(MPI_IN_PLACE, &value_, 1, type_, operation_, world.comm, MPI_INFO_NULL, &planned_);
-#else
-    MPIX_Allreduce_init(MPI_IN_PLACE, &value_, 1, type_, operation_, world.comm, MPI_INFO_NULL, &planned_);
-#endif
   }
   void post(MPI_Request& request) {
     value_ = {};
@@ -125,8 +120,7 @@ class OfMpi {
       else
         value_ += partials_[n];
     }
-    MPI_Start(&planned_);
-    request = planned_;
+    planned_.start(&value_, 1, type_, operation_, comm_, request);
   }
   void finish() {
     if constexpr (std::is_same_v<Value, Tree>)
@@ -135,18 +129,19 @@ class OfMpi {
       sum_ = value_;
   }
   void release() {
-    MPI_Request_free(&planned_);
+    planned_.release();
     if constexpr (std::is_same_v<Value, Tree>) MPI_Type_free(&type_), MPI_Op_free(&operation_);
   }
 
  private:
+  MPI_Comm comm_;
   std::span<const double> partials_;
   double& sum_;
   std::uint32_t first_;
   Value value_{};
   MPI_Datatype type_ = MPI_DOUBLE;
   MPI_Op operation_ = MPI_SUM;
-  MPI_Request planned_ = MPI_REQUEST_NULL;
+  runtime::PlannedAllreduce planned_;
 };
 
 /// Median over reductions and ranks of the processor time of a post [us], on rank 0. Throws where the sum is wrong.

@@ -70,6 +70,29 @@ const Operations& operations() {
 
 }  // namespace
 
+void PlannedAllreduce::start(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation, MPI_Comm comm,
+                             MPI_Request& request) {
+  if (planned_ == MPI_REQUEST_NULL) {
+#if MPI_VERSION >= 4
+    MPI_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm, MPI_INFO_NULL, &planned_);
+#elif defined(OMPI_HAVE_MPI_EXT_PCOLLREQ)
+    MPIX_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm, MPI_INFO_NULL, &planned_);
+#else
+    MPI_Iallreduce(MPI_IN_PLACE, values, int(count), type, operation, comm, &planned_);
+#endif
+  }
+  if (started_by_planning) {
+    request = std::exchange(planned_, MPI_REQUEST_NULL);
+    return;
+  }
+  MPI_Start(&planned_);
+  request = planned_;
+}
+
+void PlannedAllreduce::release() {
+  if (planned_ != MPI_REQUEST_NULL) MPI_Request_free(&planned_);
+}
+
 Allreduce::Allreduce(std::string_view label, Reduction reduction, MPI_Comm comm, int ranks)
     : reduction_(std::move(reduction)), comm_(comm), ranks_(ranks) {
   const std::size_t components = reduction_.result.size();
@@ -105,43 +128,18 @@ void Allreduce::take_in() {
   }
 }
 
-void Allreduce::plan(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation) {
-#if MPI_VERSION >= 4
-  MPI_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm_, MPI_INFO_NULL, &planned_);
-#elif defined(OMPI_HAVE_MPI_EXT_PCOLLREQ)
-  MPIX_Allreduce_init(MPI_IN_PLACE, values, int(count), type, operation, comm_, MPI_INFO_NULL, &planned_);
-#else
-  MPI_Iallreduce(MPI_IN_PLACE, values, int(count), type, operation, comm_, &planned_);
-#endif
-}
-
 void Allreduce::post(MPI_Request& request) {
   take_in();
   const Operations& known = operations();
-  if (planned_ == MPI_REQUEST_NULL) {
-    // All ranks come here in the same order, as each module's reductions start in one order on its communicator.
-    switch (reduction_.operation) {
-      case Reduction::Operation::sum:
-        plan(sums_.data(), sums_.size(), known.sum_type, known.sum);
-        break;
-      case Reduction::Operation::min:
-        plan(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.min);
-        break;
-      case Reduction::Operation::max:
-        plan(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.max);
-        break;
-    }
+  // All ranks come here in the same order, as each module's reductions start in one order on its communicator.
+  switch (reduction_.operation) {
+    case Reduction::Operation::sum:
+      return planned_.start(sums_.data(), sums_.size(), known.sum_type, known.sum, comm_, request);
+    case Reduction::Operation::min:
+      return planned_.start(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.min, comm_, request);
+    case Reduction::Operation::max:
+      return planned_.start(extremes_.data(), extremes_.size(), MPI_DOUBLE, known.max, comm_, request);
   }
-  if (started_by_planning) {
-    request = std::exchange(planned_, MPI_REQUEST_NULL);
-    return;
-  }
-  MPI_Start(&planned_);
-  request = planned_;
-}
-
-void Allreduce::release() {
-  if (planned_ != MPI_REQUEST_NULL) MPI_Request_free(&planned_);
 }
 
 void Allreduce::finish() {

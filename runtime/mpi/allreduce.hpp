@@ -18,6 +18,17 @@
 
 namespace spindrift::runtime {
 
+/// An allreduce in place that MPI plans at the first start, where it has persistent collectives, and each start begins.
+class PlannedAllreduce {
+ public:
+  /// The same values in every call. MPI may keep `request` when it has completed: whoever waits for it forgets it then.
+  void start(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation, MPI_Comm comm, MPI_Request& request);
+  void release();  ///< what MPI keeps for it: after the last one has completed, before the communicator goes
+
+ private:
+  MPI_Request planned_ = MPI_REQUEST_NULL;
+};
+
 class Allreduce {
  public:
   /// Throws GraphError where partials are no multiple of the results. `comm` carries one operation after the other, in the same
@@ -29,22 +40,20 @@ class Allreduce {
 
   bool active() const { return !reduction_.active || reduction_.active(); }
   bool needs_messages() const { return ranks_ > 1; }
-  /// Takes in the partials, which may change from then on, and starts joining the ranks. MPI may keep `request` when it has
-  /// completed: whoever waits for it forgets it then.
+  /// Takes in the partials, which may change from then on, and starts joining the ranks (PlannedAllreduce::start).
   void post(MPI_Request& request);
-  void finish();   ///< writes `result`; without messages it takes in the partials first
-  void release();  ///< what MPI keeps for it: after the last one has completed, before the communicator goes
+  void finish();  ///< writes `result`; without messages it takes in the partials first
+  void release() { planned_.release(); }
   std::size_t bytes() const { return sums_.size() * sizeof(BinnedSum) + extremes_.size() * sizeof(double); }
 
  private:
   void take_in();
-  void plan(void* values, std::size_t count, MPI_Datatype type, MPI_Op operation);
   Reduction reduction_;
   MPI_Comm comm_;
   int ranks_;
   std::vector<BinnedSum> sums_;   ///< by component; empty for min and max
   std::vector<double> extremes_;  ///< by component; empty for sums
-  MPI_Request planned_ = MPI_REQUEST_NULL;
+  PlannedAllreduce planned_;
 };
 
 }  // namespace spindrift::runtime

@@ -142,7 +142,7 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
         {key,
          regular ? fmt::format("{:.4g} m with periodic sides, {:.3g} waves of {:.4g} m{}", across, waves_in, length, heading)
                  : fmt::format("{:.4g} m with periodic sides for waves of many lengths", across),
-         "a whole number of waves",
+         "a whole number of waves of one length",
          "where the sides meet the waves have a step; [[sea.damping_zones]] up to both of them with "
          "towards = \"waves\" keep it there"});
   };

@@ -440,9 +440,8 @@ double measure_leading(const ParticlePlan& plan) {
       const auto& sides = axis == 0 ? tank.x : tank.y;
       at[axis] = sides[0] + ((axis == 0 ? n % across : n / across) + 0.5) / across * (sides[1] - sides[0]);
     }
-    const bool inside = std::any_of(damping.zones.begin(), damping.zones.end(), [&](const sph::DampingZone& zone) {
-      return zone.to_waves && zone.rate_at(at[zone.axis]) > 0.0;
-    });
+    const bool inside = std::any_of(damping.zones.begin(), damping.zones.end(),
+                                    [&](const sph::DampingZone& zone) { return zone.rates_at(at[zone.axis]).to_waves > 0.0; });
     if (!inside) continue;
     if constexpr (dim == 3)
       led.push_back({at[0], at[1], -0.5 * tank.depth});

@@ -22,15 +22,15 @@ struct DampingZone {
   double from, to, rate;
   int axis = 0;
   bool to_waves = false;  ///< to the motion of Damping::waves, not to rest
-  double rate_at(double x) const {
-    const double s = along(x), to_rest = to_waves ? std::sqrt(0.2) * std::max(0.0, 2.0 * s - 1.0) : s;
-    return rate * to_rest * to_rest + rate_to_waves(x);
+  struct Rates {
+    double to_rest = 0.0, to_waves = 0.0;
+  };
+  Rates rates_at(double x) const {
+    const double s = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    if (!to_waves) return {.to_rest = rate * s * s};
+    const double rest = std::sqrt(0.2) * std::max(0.0, 2.0 * s - 1.0), lead = 1.0 - std::abs(2.0 * s - 1.0);
+    return {rate * rest * rest, rate * lead * lead};
   }
-  double rate_to_waves(double x) const {  ///< that part of it
-    const double s = to_waves ? 1.0 - std::abs(2.0 * along(x) - 1.0) : 0.0;
-    return rate * s * s;
-  }
-  double along(double x) const { return std::clamp((x - from) / (to - from), 0.0, 1.0); }  ///< from 0 to 1
 };
 
 /// What damps the water after each step; nothing by default.
@@ -65,8 +65,9 @@ void damp(Store<dim, Real>& store, const Damping& damping, double t, double dt, 
       if (store.id[slot] == no_particle) continue;
       double rate = damping.everywhere, to_waves = 0.0;
       for (const DampingZone& zone : damping.zones) {
-        rate += zone.rate_at(store.x[zone.axis][slot]);
-        to_waves += zone.rate_to_waves(store.x[zone.axis][slot]);
+        const DampingZone::Rates of_zone = zone.rates_at(store.x[zone.axis][slot]);
+        rate += of_zone.to_rest + of_zone.to_waves;
+        to_waves += of_zone.to_waves;
       }
       if (rate == 0.0) continue;
       const double factor = std::exp(-rate * dt);
