@@ -38,9 +38,11 @@ struct Graph::Recorded {
   std::vector<std::uint32_t> messages_made;  ///< by node: in so many messages
 
   std::vector<float> place_of;  ///< by datum
-  // For recordings (sizes.hpp): bytes of data, and of the parts that single nodes read; where nothing was said, none.
+  // For recordings (sizes.hpp): bytes of data, and of the parts that single nodes read, where something was said; nodes that work
+  // on all that the rank holds, or in parts.
   std::map<std::uint32_t, std::uint64_t> bytes_of_datum;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> bytes_of_read;  ///< by node and datum
+  std::set<std::uint32_t> on_all, in_parts;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> orders;
   std::uint32_t open = no_node;  ///< loop being recorded
 

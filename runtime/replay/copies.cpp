@@ -89,9 +89,24 @@ class Copier {
   /// Tasks over the borders to the next copies, when all of their family are done: those of a colour stay together.
   void add_across() {
     for (const std::uint32_t n : across_)
-      for (int k = 0; k < count_; ++k)
+      for (int k = 0; k < count_; ++k) {
         add(n, [&](const UseRecord& use) { return datum(use.datum, half(use.datum) == 0 ? k + 1 : k); });
+        if (graph_.nodes[n].in_parts) times(crossing(graph_.nodes[n]));
+      }
     across_.clear();
+  }
+
+  /// Of a task in parts, those that cross the border: the other half has the rest of them once already.
+  double crossing(const NodeRecord& node) const {
+    int parts[2] = {};
+    for (const UseRecord& use : node.uses)
+      if (writes_to(use) && half(use.datum) >= 0) ++parts[half(use.datum)];
+    return double(std::min(parts[0], parts[1])) / double(parts[0] + parts[1]);
+  }
+
+  /// The last task added takes so many times as long.
+  void times(double factor) {
+    for (std::int64_t& ns : out_.run.ns.back()) ns = std::llround(factor * double(ns));
   }
 
   void add(std::uint32_t n, auto&& as) {
@@ -118,8 +133,7 @@ class Copier {
     for (const UseRecord& use : graph_.nodes[n].uses)
       for (int k = 0; k < (graph_.data[use.datum].place < 0 ? 1 : count_); ++k)
         to.uses.push_back({datum(use.datum, k), use.how, use.bytes});
-    if (serial_ != 1.0)
-      for (std::int64_t& ns : out_.run.ns.back()) ns = std::llround(serial_ * double(ns));
+    if (const double factor = graph_.nodes[n].on_all ? double(count_) : serial_; factor != 1.0) times(factor);
   }
 
   const GraphRecord& graph_;

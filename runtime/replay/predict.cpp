@@ -53,7 +53,10 @@ class Windows {
       double in_graphs = 0.0;
       for (const RunRecord* run : runs) in_graphs += 1e-9 * double(run->wall_ns);
       const Cluster& c = out_.cluster;
-      out_.outside_s += std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs) * std::max(1.0, double(c.copies) / c.ranks);
+      // What was done on all that the rank held, if that was one rank, is shared out like it; the rest is of every rank.
+      const double outside = std::max(0.0, 1e-9 * double(window.wall_ns) - in_graphs), of_a_rank = double(c.copies) / c.ranks;
+      const double on_all = recording_.ranks.size() > 1 ? 0.0 : std::min(outside, 1e-9 * double(window.on_all_ns));
+      out_.outside_s += (outside - on_all) * std::max(1.0, of_a_rank) + on_all * of_a_rank;
       if (recording_.ranks.size() == 1)
         for (const RunRecord* run : runs) out_.work_s += c.copies * task_s(*run);
       ++out_.windows;
@@ -230,8 +233,9 @@ Recording typical(const Recording& recording) {
   Recording out = recording;
   if (out.windows.empty()) throw std::invalid_argument("the recording has no window");
   const std::int64_t number = out.windows[0].number;
-  std::vector<double> outside;
+  std::vector<double> outside, on_all;
   for (const WindowRecord& window : recording.windows) {
+    on_all.push_back(double(window.on_all_ns));
     std::int64_t in_graphs = 0;
     for (const RunRecord* run : runs_in(recording.ranks[0], window.number)) in_graphs += run->wall_ns;
     outside.push_back(double(window.wall_ns - in_graphs));
@@ -264,7 +268,7 @@ Recording typical(const Recording& recording) {
       if (rank.rank == 0) wall += double(run.wall_ns = (run.task_ns + run.overhead_ns) / recording.threads);
     }
   }
-  out.windows = {{number, std::llround(wall)}};
+  out.windows = {{number, std::llround(wall), std::llround(median(on_all))}};
   return out;
 }
 

@@ -74,6 +74,7 @@ GraphRecord graph_record(const Team& team) {
       const auto part = g.bytes_of_read.find({n, g.touched[u].datum});
       to.uses.push_back({g.touched[u].datum, g.touched[u].how, part == g.bytes_of_read.end() ? 0 : part->second});
     }
+    to.on_all = g.on_all.contains(n), to.in_parts = g.in_parts.contains(n);
     const std::uint32_t at = g.payload[n];
     if (node.kind == NodeKind::loop) to.limits = g.limits[at];
     if (node.kind == NodeKind::send || node.kind == NodeKind::receive) to.peer = g.messages[at].peer, to.tag = g.messages[at].tag;

@@ -27,6 +27,8 @@ struct NodeRecord {
   Limits limits = {};       ///< of a loop
   int peer = -1, tag = -1;  ///< of a send or receive
   std::uint64_t bytes = 0;  ///< of a message or reduction, on average
+  bool on_all = false;      ///< works on all that its rank holds (graph/sizes.hpp)
+  bool in_parts = false;    ///< works in parts, one for each block that it writes
   std::vector<UseRecord> uses;
 };
 
@@ -67,8 +69,9 @@ struct RankRecording {
 };
 
 struct WindowRecord {
-  std::int64_t number = 0;   ///< from 1 at the start of the scene
-  std::int64_t wall_ns = 0;  ///< of rank 0, with what it does between the runs of its executors; without output
+  std::int64_t number = 0;     ///< from 1 at the start of the scene
+  std::int64_t wall_ns = 0;    ///< of rank 0, with what it does between the runs of its executors; without output
+  std::int64_t on_all_ns = 0;  ///< of that, between runs, on all that the rank holds (Ledger::on_all)
 };
 
 struct Recording {

@@ -76,6 +76,8 @@ Json node_line(const RankRecording& rank, std::uint32_t g, std::uint32_t n, cons
             {"spread_ns", std::round(cost.spread_ns)}};
   if (node.kind == NodeKind::loop)
     line["min"] = node.limits.min, line["max"] = node.limits.max, line["own_urgency"] = node.limits.urgency;
+  if (node.on_all) line["on_all"] = true;
+  if (node.in_parts) line["in_parts"] = true;
   if (node.peer >= 0) line["peer"] = node.peer, line["tag"] = node.tag;
   if (node.peer >= 0 || node.kind == NodeKind::reduce) line["bytes"] = node.bytes;
   Json uses = Json::array(), after = Json::array();
@@ -138,7 +140,7 @@ void put_lines(const RankRecording& rank, const Put& put) {
 std::string header_of(const Recording& recording, int ranks) {
   Json windows = Json::array();
   for (const WindowRecord& window : recording.windows)
-    windows.push_back({{"number", window.number}, {"wall_ns", window.wall_ns}});
+    windows.push_back({{"number", window.number}, {"wall_ns", window.wall_ns}, {"on_all_ns", window.on_all_ns}});
   return Json{{"format", format}, {"version", recording_version}, {"scene", recording.scene},     {"program", recording.program},
               {"ranks", ranks},   {"threads", recording.threads}, {"windows", std::move(windows)}}
              .dump() +
@@ -179,7 +181,8 @@ void read_header(const Json& line, Recording& to, std::size_t file_bytes) {
                              std::to_string(oldest_recording_version) + " to " + std::to_string(recording_version) +
                              ": record again");
   to.scene = line.at("scene"), to.program = line.at("program"), to.threads = line.at("threads");
-  for (const Json& window : line.at("windows")) to.windows.push_back({window.at("number"), window.at("wall_ns")});
+  for (const Json& window : line.at("windows"))
+    to.windows.push_back({window.at("number"), window.at("wall_ns"), window.value("on_all_ns", std::int64_t(0))});
   to.ranks.resize(count_in(line.at("ranks"), "ranks", file_bytes));
   for (std::size_t r = 0; r < to.ranks.size(); ++r) to.ranks[r].rank = int(r);
 }
@@ -193,6 +196,7 @@ void read_node(const Json& line, GraphRecord& graph) {
   if (node.kind == NodeKind::loop) node.limits = {line.at("min"), line.at("max"), line.at("own_urgency")};
   node.peer = line.value("peer", -1), node.tag = line.value("tag", -1);
   node.bytes = line.value("bytes", std::uint64_t(0));
+  node.on_all = line.value("on_all", false), node.in_parts = line.value("in_parts", false);
   for (const Json& use : line.at("uses")) {
     const std::uint32_t datum = use.at(0);
     if (datum >= graph.data.size()) throw std::runtime_error("uses datum " + std::to_string(datum) + ", which the graph lacks");

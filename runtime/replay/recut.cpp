@@ -2,6 +2,7 @@
 #include "runtime/replay/recut.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -185,25 +186,39 @@ class Cutter {
     return std::uint32_t(to.graph.nodes.size() - 1);
   }
 
+  /// What a rank does of the work of a node that it runs.
+  double share(const NodeRecord& node, int rank) const {
+    if (!writes_tiles(node)) return node.on_all ? 1.0 / count_ : 1.0;
+    if (!node.in_parts) return 1.0;
+    int first = -1, parts = 0, own = 0;
+    for (const UseRecord& use : node.uses)
+      if (const int owner = owner_[use.datum]; writes_to(use) && owner >= 0)
+        first = first < 0 ? owner : first, ++parts, own += owner == rank;
+    return rank == first ? 1.0 : double(own) / parts;
+  }
+
   void record(std::uint32_t n) {
     const NodeRecord& node = graph_.nodes[n];
-    const std::vector<int> ranks = ranks_of(node);
     const bool of_tiles = writes_tiles(node);
-    for (const int r : ranks) {
+    double done = 0.0;
+    for (const int r : ranks_of(node)) {
       add(r, n, node.label, node.kind, around(r));
       RankRun& rank = out_[std::size_t(r)];
       NodeRecord& to = rank.graph.nodes.back();
-      to.bytes = node.bytes;
+      to.bytes = node.bytes, to.on_all = node.on_all, to.in_parts = node.in_parts;
       for (const UseRecord& use : node.uses) {
         if (!of_tiles && owner_[use.datum] >= 0 && owner_[use.datum] != r) continue;  // every rank looks at its own
         to.uses.push_back(use);
         if (writes_to(use) && to.place < 0) to.place = rank.graph.data[use.datum].place;
       }
+      const double part = share(node, r);
+      done += part;
       rank.run.ns.back() = run_.ns[n];
+      if (part < 1.0)
+        for (std::int64_t& ns : rank.run.ns.back()) ns = std::llround(part * double(ns));
       rank.run.skip_as(std::uint32_t(rank.graph.nodes.size() - 1), run_, n);
     }
-    if (node.kind == NodeKind::task)
-      repeated_ns_ += double(ranks.size() - 1) * std::accumulate(run_.ns[n].begin(), run_.ns[n].end(), 0.0);
+    if (node.kind == NodeKind::task) repeated_ns_ += (done - 1.0) * std::accumulate(run_.ns[n].begin(), run_.ns[n].end(), 0.0);
   }
 
   /// Orders that only several ranks need (graph/graph.cpp), then the edges.

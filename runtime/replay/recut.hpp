@@ -1,7 +1,8 @@
 // A graph recorded on one rank, cut for many: its blocks (what stands at one place of the thread team: a tile, a column of
 // particles) go to ranks by the partitioner of runs, by measured cost and the bytes that pass between blocks. A task runs on
-// every rank that owns a block which it writes, one that writes none on all ranks, as in the code. Before tasks that read another
-// rank's block, one message per pair of ranks and family of tasks. Used by predict.cpp; tested in
+// every rank that owns a block which it writes, one that writes none on all ranks, as in the code; there it takes its share of
+// the time where it works on all that a rank holds. Of a task in parts one rank does all, others their own parts. Before tasks
+// that read another rank's block, one message per pair of ranks and family of tasks. Used by predict.cpp; tested in
 // tests/runtime/replay/recut_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

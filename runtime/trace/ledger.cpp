@@ -95,6 +95,10 @@ void Ledger::end_window() {
   if (keep_ == Keep::runs) windows_.back().wall_ns = Clock::now_ns() - window_begin_ns_;
 }
 
+void Ledger::on_all(std::int64_t ns) {
+  if (keep_ == Keep::runs && in_window_) windows_.back().on_all_ns += ns;
+}
+
 void Ledger::add(RankRecording& to, const Live& live) {
   std::vector<RunRecord> runs = live.runs;
   std::vector<std::uint32_t> replay = live.replay;

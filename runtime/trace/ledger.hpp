@@ -49,6 +49,8 @@ class Ledger {
   /// What is done from here on belongs to this window. Before the first one records are kept.
   void begin_window(std::int64_t number, Keep keep);
   void end_window();
+  /// Of the time between the runs of this window the rank spent so much on all that it holds: more ranks would share it.
+  void on_all(std::int64_t ns);
   /// No records from here to the next window.
   void pause() { keep_ = Keep::nothing; }
   bool keeps_records() const { return keep_ != Keep::nothing; }

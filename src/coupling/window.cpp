@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/trace/clock.hpp"
+#include "runtime/trace/ledger.hpp"
 
 namespace spindrift::coupling {
 
@@ -62,8 +63,11 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   const std::int64_t begin = runtime::Clock::now_ns();
   const Timeline& timeline = floating_.timeline();
   sides_.balance(state.tick / timeline.steps_per_window(), timeline.windows());
+  const std::int64_t balanced = runtime::Clock::now_ns();
   sides_.take_snapshot(AirSide::window);
-  totals_.snapshot_ns += runtime::Clock::now_ns() - begin;
+  const std::int64_t end = runtime::Clock::now_ns();
+  totals_.snapshot_ns += end - begin;
+  if (runtime::Ledger* const ledger = runtime::Ledger::current()) ledger->on_all(end - balanced);
   sides_.begin_window(retry);
   // Before t = 0 the sea settles round bodies that are held; the air waits.
   const bool air_waits = !sides_.interface || state.tick < 0;

@@ -202,6 +202,24 @@ TEST_CASE("pairs across a border are one more on each side of it, what is of blo
   for (const RankRun& rank : cut.ranks) CHECK(sum_s(rank) == Approx((100 * tiles + 1 + tiles - 1 + 2) * us));
 }
 
+TEST_CASE("of work in parts that crosses a border only those parts are done once more", "[replay][fast]") {
+  constexpr std::size_t tiles = 8;
+  Graph g;
+  const auto state = g.data(tiles), force = g.data(tiles), other = g.data(tiles);
+  for (std::size_t n = 0; n < tiles; ++n)
+    g.task(label("move", n), {updates(state[n]), updates(force[n]), updates(other[n])}, [] {});
+  for (std::size_t n = 0; n + 2 < tiles; ++n)  // three parts, of which one or two cross
+    set_in_parts(g, g.task(label("pairs", n), {updates(force[n]), updates(force[n + 1]), updates(force[n + 2])}, [] {}));
+  const RankRun one =
+      worked_out(std::move(g), [](const std::string& name) { return name.starts_with("sea/move") ? 100'000 : 3'000; });
+  const RankRun three = copies(one.graph, one.run, 3);
+  double pairs_ns = 0.0;
+  for (std::size_t n = 0; n < three.graph.nodes.size(); ++n)
+    if (three.graph.nodes[n].label.starts_with("sea/pairs"))
+      pairs_ns += std::accumulate(three.run.ns[n].begin(), three.run.ns[n].end(), 0.0);
+  CHECK(pairs_ns == Approx(3 * (double(tiles) - 2) * 3'000 + 3 * 2 * 1'000));
+}
+
 TEST_CASE("copies are cut into equal units of whole nodes", "[replay][fast]") {
   const auto units = [](int copies, int nodes, int ranks) {
     Cluster cluster{.nodes = nodes, .ranks = ranks};
@@ -224,7 +242,8 @@ TEST_CASE("copies are cut into equal units of whole nodes", "[replay][fast]") {
   }
 }
 
-TEST_CASE("what lies between the graphs is as recorded for each copy of a rank", "[replay][fast]") {
+TEST_CASE("what lies between the graphs is as recorded for each copy of a rank, work on all that a rank holds is shared out",
+          "[replay][fast]") {
   Recording recording = recording_of(row(8, false));
   recording.windows[0].wall_ns += 100'000;
   const auto outside = [&](int copies, int ranks) {
@@ -234,6 +253,11 @@ TEST_CASE("what lies between the graphs is as recorded for each copy of a rank",
   };
   CHECK(outside(1, 1) == Approx(100 * us));
   CHECK(outside(1, 4) == Approx(100 * us));
+  CHECK(outside(4, 4) == Approx(100 * us));
+  CHECK(outside(8, 4) == Approx(200 * us));
+  recording.windows[0].on_all_ns = 60'000;
+  CHECK(outside(1, 1) == Approx(100 * us));
+  CHECK(outside(1, 4) == Approx((40 + 15) * us));
   CHECK(outside(4, 4) == Approx(100 * us));
   CHECK(outside(8, 4) == Approx(200 * us));
 }

@@ -142,8 +142,10 @@ TEST_CASE("a typical window has the median of every execution", "[replay][fast]"
     }
   for (WindowRecord& window : recording.windows) window.wall_ns += 5'000'000;
   recording.windows[1].wall_ns += 9'000'000;
+  recording.windows[0].on_all_ns = 7, recording.windows[1].on_all_ns = 2, recording.windows[2].on_all_ns = 5;
   const Recording typical = spindrift::runtime::typical(recording);
   REQUIRE(typical.windows.size() == 1);
+  CHECK(typical.windows[0].on_all_ns == 5);
   CHECK(typical.windows[0].wall_ns == 405'800);                // with 400 ns of the runtime in each of two runs
   CHECK(task_overhead_s(typical) == Approx(2 * 400e-9 / 40));  // of window 4, the least
   CHECK(predict(typical, ideal(1, 1), Placement::shared, side_of).wall_s == Approx(405 * us));

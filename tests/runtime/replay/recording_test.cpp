@@ -46,11 +46,13 @@ TEST_CASE("the windows asked for are recorded, every execution of every node in 
   Executor executor(small(left), {.threads = 2, .records = 10000});
   for (int window = 1; window <= 5; ++window) {
     ledger.begin_window(window, window >= 2 && window <= 4 ? Ledger::Keep::runs : Ledger::Keep::nothing);
+    ledger.on_all(window);
     executor.run();
     ledger.end_window();
   }
   const RankRecording rank = ledger.recording(0);
   REQUIRE(ledger.windows().size() == 3);
+  CHECK(ledger.windows()[2].on_all_ns == 4);
   REQUIRE(rank.graphs.size() == 1);
   REQUIRE(rank.runs.size() == 3);
   const GraphRecord& graph = rank.graphs[0];
@@ -93,6 +95,7 @@ TEST_CASE("a recording comes back from its file as it was", "[replay][fast]") {
   RandomProgram program(7, 12, 14, 2);
   Graph g;
   program.record(g);
+  set_on_all(g, 3), set_in_parts(g, 4);
   Executor executor(std::move(g), {.threads = 2, .records = 100000});
   for (int window = 1; window <= 3; ++window) {
     ledger.begin_window(window, Ledger::Keep::runs);
@@ -100,6 +103,7 @@ TEST_CASE("a recording comes back from its file as it was", "[replay][fast]") {
     ledger.end_window();
   }
   Recording recording{.scene = "a \"scene\"", .program = "test", .threads = 2, .windows = ledger.windows()};
+  recording.windows.at(1).on_all_ns = 17;
   recording.ranks.push_back(ledger.recording(0));
   const std::string path = file("recording");
   write_recording(recording, path, MPI_COMM_SELF);
@@ -109,6 +113,7 @@ TEST_CASE("a recording comes back from its file as it was", "[replay][fast]") {
   CHECK(back.threads == 2);
   REQUIRE(back.windows.size() == 3);
   CHECK(back.windows[2].wall_ns == recording.windows[2].wall_ns);
+  CHECK(back.windows[1].on_all_ns == 17);
   REQUIRE(back.ranks.size() == 1);
   REQUIRE(back.ranks[0].runs.size() == 3);
   for (std::size_t r = 0; r < 3; ++r) {
@@ -118,12 +123,15 @@ TEST_CASE("a recording comes back from its file as it was", "[replay][fast]") {
   }
   const GraphRecord &before = recording.ranks[0].graphs[0], &after = back.ranks[0].graphs[0];
   REQUIRE(after.nodes.size() == before.nodes.size());
+  CHECK((before.nodes[3].on_all && std::ranges::count(before.nodes, true, &NodeRecord::on_all) == 1));
+  CHECK((before.nodes[4].in_parts && std::ranges::count(before.nodes, true, &NodeRecord::in_parts) == 1));
   auto edges = before.edges;
   std::ranges::stable_sort(edges, {}, &Edge::to);
   CHECK(after.edges == edges);
   for (std::size_t n = 0; n < before.nodes.size(); ++n) {
     const NodeRecord &a = before.nodes[n], &b = after.nodes[n];
-    CHECK((a.label == b.label && a.kind == b.kind && a.loop == b.loop && a.place == b.place));
+    CHECK((a.label == b.label && a.kind == b.kind && a.loop == b.loop && a.place == b.place && a.on_all == b.on_all &&
+           a.in_parts == b.in_parts));
     CHECK((a.limits.min == b.limits.min && a.limits.max == b.limits.max && a.limits.urgency == b.limits.urgency));
     REQUIRE(a.uses.size() == b.uses.size());
     for (std::size_t u = 0; u < a.uses.size(); ++u)

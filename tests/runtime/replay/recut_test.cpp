@@ -85,6 +85,29 @@ TEST_CASE("every tile's tasks run on one rank, what is of no tile on all, and bo
   }
 }
 
+TEST_CASE("of work on all that a rank holds each rank does its share, of other work of no tile the whole", "[replay][fast]") {
+  Graph g;
+  const auto state = g.data(tiles), sums = g.data(tiles), ghosts = g.data(tiles);
+  const Datum order = g.datum(), plan = g.datum();
+  set_on_all(g, g.task("sea/sort", {updates(order)}, [] {}));
+  set_on_all(g, g.collective("sea/migrate", {updates(order)}, [](MPI_Comm) {}));
+  g.task("sea/plan", {updates(plan)}, [] {});
+  for (std::size_t n = 0; n < tiles; ++n)
+    g.task("sea/sweep/" + std::to_string(n), {reads(order), updates(state[n]), updates(sums[n]), updates(ghosts[n])}, [] {});
+  const RankRun whole = worked_out(std::move(g), [](const std::string& label) {
+    return label == "sea/sort" ? 80'000 : label == "sea/migrate" ? 40'000 : label == "sea/plan" ? 7'000 : 10'000;
+  });
+  for (const int ranks : {1, 2, 4}) {
+    const Recut cut = recut(whole.graph, whole.run, ranks);
+    CHECK(cut.repeated == Approx((ranks - 1) * 7.0 / (80.0 + 7.0 + 160.0)));
+    for (const RankRun& rank : cut.ranks) CHECK(sum_s(rank) == Approx((7.0 + (80.0 + 40.0 + 160.0) / ranks) * us));
+    // Three copies on so many ranks each: what is shared out is of a copy.
+    const RankRun many = copies(whole.graph, whole.run, 3);
+    for (const RankRun& rank : recut(many.graph, many.run, 3 * ranks, 0, 3).ranks)
+      CHECK(sum_s(rank) == Approx((7.0 + (80.0 + 40.0 + 160.0) / ranks) * us));
+  }
+}
+
 TEST_CASE("what was skipped stays so on every rank, in every part and copy", "[replay][fast]") {
   RankRun whole = row(5);
   const auto total =
@@ -126,6 +149,25 @@ TEST_CASE("work that writes tiles of two ranks is done on both", "[replay][fast]
   const Simulated s = simulate(cut.ranks, ideal(2, 1));
   CHECK(s.busy_s == Approx(440 * us));
   CHECK(s.messages == 2);
+}
+
+TEST_CASE("of work in parts the rank of the first does all, another one its own parts", "[replay][fast]") {
+  Graph g;
+  const auto state = g.data(4), force = g.data(4), other = g.data(4);
+  for (std::size_t n = 0; n < 4; ++n)
+    g.task("sea/move/" + std::to_string(n), {updates(state[n]), updates(force[n]), updates(other[n])}, [] {});
+  for (std::size_t n = 0; n + 1 < 4; ++n)
+    set_in_parts(g, g.task("sea/pairs/" + std::to_string(n),
+                           {reads(state[n]), reads(state[n + 1]), updates(force[n]), updates(force[n + 1])}, [] {}));
+  const RankRun whole =
+      worked_out(std::move(g), [](const std::string& label) { return label.starts_with("sea/pairs") ? 10'000 : 100'000; });
+  const Recut cut = recut(whole.graph, whole.run, 2);
+  CHECK(cut.repeated == Approx(5.0 / 430.0));  // one of the two parts of the pairs at the cut
+  std::vector<double> s;
+  for (const RankRun& rank : cut.ranks) s.push_back(sum_s(rank));
+  std::ranges::sort(s);
+  CHECK(s[0] == Approx(215 * us));
+  CHECK(s[1] == Approx(220 * us));
 }
 
 TEST_CASE("sums at places of their own go with the tiles that they are made from", "[replay][fast]") {
