@@ -125,7 +125,8 @@ double mean_neighbours(const Parameters& p, const std::vector<Seed<3>>& seeds) {
   meets.reserve(sea.store().clusters());
   const LawCount law{KernelWendland<3, float>(p.h())};
   for (int g = 0; g < sea.state().columns.groups(); ++g)
-    sweep_pairs(sea.store(), sums.data(), sea.state().columns, g, float(1.001 * p.reach()), meets, law, law);
+    sweep_pairs(sea.store(), {sums.data(), sums.data(), cluster_size}, sea.state().columns, g, float(1.001 * p.reach()), meets,
+                law, law);
   double total = 0.0;
   for (std::size_t slot = 0; slot < sea.store().slots(); ++slot)
     if (sea.store().id[slot] != no_particle) total += sums[slot];

@@ -206,22 +206,27 @@ class Sea final : public ParticleSea {
   ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,
                         bool solids) const override {
     const sph::EosTait& eos = sea_.parameters().eos;
-    const auto mine = sph::by_identity(sea_, particles_, comm_);
-    const std::size_t size = sph::values_per_particle<dim>(sea_.parameters());
+    using Vector = std::array<double, dim>;
     ParticleSample sample;
-    for (std::size_t n = 0; n < mine.owner.size(); ++n) {
-      if (!mine.present[n] || (mine.owner[n] != sph::water_owner && !solids)) continue;
-      const double* value = mine.values.data() + n * size;
-      std::array<double, dim> x, v;
-      for (int k = 0; k < dim; ++k) x[k] = value[k], v[k] = value[dim + k];
-      const Eigen::Vector3d at = sph::to_earth<dim>(x), speed = sph::to_earth<dim>(v);
-      if ((low && !(at.array() >= low->array()).all()) || (high && !(at.array() <= high->array()).all())) continue;
-      sample.id.push_back(std::int64_t(mine.range.first + n));
-      for (int k = 0; k < 3; ++k) sample.position.push_back(at[k]), sample.velocity.push_back(speed[k]);
-      sample.pressure.push_back(eos.pressure(value[2 * dim]));
-      sample.density.push_back(eos.rho0 + value[2 * dim]);
-      sample.owner.push_back(mine.owner[n]);
-    }
+    sph::visit_by_identity(
+        sea_, particles_, comm_,
+        [&](std::uint16_t owner, const Vector& x) {
+          if (owner != sph::water_owner && !solids) return false;
+          const Eigen::Vector3d at = sph::to_earth<dim>(x);
+          return (!low || (at.array() >= low->array()).all()) && (!high || (at.array() <= high->array()).all());
+        },
+        [&](std::size_t count) {
+          sample.id.reserve(count), sample.position.reserve(3 * count), sample.velocity.reserve(3 * count);
+          for (std::vector<double>* one : {&sample.pressure, &sample.density, &sample.owner}) one->reserve(count);
+        },
+        [&](std::uint32_t id, std::uint16_t owner, const Vector& x, const Vector& v, double deviation) {
+          const Eigen::Vector3d at = sph::to_earth<dim>(x), speed = sph::to_earth<dim>(v);
+          sample.id.push_back(std::int64_t(id));
+          for (int k = 0; k < 3; ++k) sample.position.push_back(at[k]), sample.velocity.push_back(speed[k]);
+          sample.pressure.push_back(eos.pressure(deviation));
+          sample.density.push_back(eos.rho0 + deviation);
+          sample.owner.push_back(owner);
+        });
     return sample;
   }
 

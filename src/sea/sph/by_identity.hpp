@@ -3,8 +3,11 @@
 // particle_sea.cpp; tested in tests/src/sea/sph/by_identity_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "runtime/mpi/exchange.hpp"
@@ -31,33 +34,23 @@ std::size_t values_per_particle(const Parameters& p) {
   return p.step == StepChoice::verlet ? 3 * dim + 2 : 2 * dim + 1;
 }
 
-/// This rank's run of identities: values, owners, and which of them are in the sea (the others are lost, and are where they left
-/// it).
-template <int dim>
+/// This rank's run of identities and their values; lost ones are where they left the sea.
 struct ByIdentity {
   IdentityRange range{};
   std::vector<double> values;
-  std::vector<std::uint16_t> owner;
-  std::vector<bool> present;
 };
 
 /// Collective.
 template <int dim, class Real>
-ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm) {
+ByIdentity by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm) {
   const Store<dim, Real>& store = sea.store();
   const std::size_t size = values_per_particle<dim>(sea.parameters());
   const int ranks = runtime::ranks_in(comm);
-  ByIdentity<dim> mine{identities_of(particles, runtime::rank_in(comm), ranks), {}, {}, {}};
-  const std::size_t count = mine.range.last - mine.range.first;
-  mine.values.resize(count * size), mine.owner.resize(count), mine.present.resize(count);
+  ByIdentity mine{identities_of(particles, runtime::rank_in(comm), ranks), {}};
+  mine.values.resize((mine.range.last - mine.range.first) * size);
   std::vector<double> values(size);
-  const auto keep = [&](std::size_t id, std::uint16_t owner) {
+  const auto keep = [&](std::size_t id) {
     std::copy(values.begin(), values.end(), mine.values.begin() + std::ptrdiff_t((id - mine.range.first) * size));
-    mine.owner[id - mine.range.first] = owner, mine.present[id - mine.range.first] = true;
-  };
-  struct Head {
-    std::uint32_t id;
-    std::uint16_t owner;
   };
   std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
   for (std::size_t slot = 0; slot < store.slots(); ++slot) {
@@ -71,13 +64,12 @@ ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles,
       for (int k = 0; k < dim; ++k) *out++ = store.v_before[k][slot];
       *out++ = store.deviation_before[slot];
     }
-    const std::uint16_t owner = store.owner[slot / cluster_size];
     if (id >= mine.range.first && id < mine.range.last) {
-      keep(id, owner);
+      keep(id);
       continue;
     }
     runtime::Packer& to = away[std::size_t(rank_of_identity(id, particles, ranks))];
-    to.put_one(Head{id, owner});
+    to.put_one(id);
     to.put(std::span<const double>(values));
   }
   if (ranks > 1) {
@@ -85,9 +77,9 @@ ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles,
     for (runtime::Packer& packer : away) parcels.push_back(packer.take());
     for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
       for (runtime::Unpacker from(bytes); !from.done();) {
-        const Head head = from.one<Head>();
+        const auto id = from.one<std::uint32_t>();
         values = from.many<double>();
-        keep(head.id, head.owner);
+        keep(id);
       }
   }
   for (const LostParticle<dim>& lost : store.lost) {
@@ -96,6 +88,54 @@ ByIdentity<dim> by_identity(const SeaSph<dim, Real>& sea, std::size_t particles,
     for (int k = 0; k < dim; ++k) out[k] = lost.position[k], out[dim + k] = lost.velocity[k];
   }
   return mine;
+}
+
+/// Of this rank's run of identities those that `wanted(owner, position)` takes, by rising identity, without room for the others:
+/// `reserve(count)`, then `visit(id, owner, position, velocity, deviation)` for each. Collective.
+template <int dim, class Real, class Wanted, class Reserve, class Visit>
+void visit_by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm, Wanted&& wanted, Reserve&& reserve,
+                       Visit&& visit) {
+  struct Particle {
+    std::uint32_t id;
+    std::uint16_t owner;
+    std::array<double, dim> x, v;
+    double deviation;
+  };
+  const Store<dim, Real>& store = sea.store();
+  const auto at = [&](std::size_t slot) {
+    Particle p{store.id[slot], store.owner[slot / cluster_size], {}, {}, store.deviation[slot]};
+    for (int k = 0; k < dim; ++k) p.x[k] = store.x[k][slot], p.v[k] = store.v[k][slot];
+    return p;
+  };
+  const int ranks = runtime::ranks_in(comm);
+  const IdentityRange range = identities_of(particles, runtime::rank_in(comm), ranks);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // identity; slot, or behind these the place in `came`
+  std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    if (store.id[slot] == no_particle) continue;
+    const Particle p = at(slot);
+    if (!wanted(p.owner, p.x)) continue;
+    if (p.id >= range.first && p.id < range.last)
+      found.emplace_back(p.id, std::uint32_t(slot));
+    else
+      away[std::size_t(rank_of_identity(p.id, particles, ranks))].put_one(p);
+  }
+  std::vector<Particle> came;
+  if (ranks > 1) {
+    std::vector<runtime::Bytes> parcels;
+    for (runtime::Packer& packer : away) parcels.push_back(packer.take());
+    for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
+      for (runtime::Unpacker from(bytes); !from.done();) {
+        came.push_back(from.one<Particle>());
+        found.emplace_back(came.back().id, std::uint32_t(store.slots() + came.size() - 1));
+      }
+  }
+  std::sort(found.begin(), found.end());
+  reserve(found.size());
+  for (const auto& [id, place] : found) {
+    const Particle p = place < store.slots() ? at(place) : came[place - store.slots()];
+    visit(id, p.owner, p.x, p.v, p.deviation);
+  }
 }
 
 /// Puts a state back: `values` of this rank's run, `owner` as the sea was laid out. Particles go to their groups with the sort

@@ -54,6 +54,7 @@ template <int dim>
 struct Neighbour {
   int group = -1;
   std::array<double, dim> shift{};
+  bool in_next_row = false;  ///< rows of columns stand along the last horizontal axis
 };
 
 template <int dim>
@@ -96,11 +97,11 @@ class Columns {
   template <class Visit>
   void for_forward(int group, Visit&& visit) const {
     if constexpr (dim == 2) {
-      visit_cell({group + 1}, visit);
+      visit_cell({group + 1}, visit, true);
     } else {
       const int a = group / count_[1], b = group % count_[1];
       visit_cell({a, b + 1}, visit);
-      for (int step = -1; step <= 1; ++step) visit_cell({a + 1, b + step}, visit);
+      for (int step = -1; step <= 1; ++step) visit_cell({a + 1, b + step}, visit, true);
       if (domain_.mirrored && b == 0)
         for (int step = -1; step <= 1; ++step) visit_image(a + step, visit);
     }
@@ -132,29 +133,25 @@ class Columns {
     }
   }
 
-  /// Groups of one colour write to disjoint groups when each updates itself and its forward neighbours, so they may run at once;
-  /// colours run in order, hence every sum has one order of terms whatever the threads do.
-  int colours() const { return dim == 2 ? axis_colours(0, 2) : axis_colours(0, along()) * axis_colours(1, 3); }
-  int colour(int group) const {
-    if constexpr (dim == 2)
-      return axis_colour(0, group, 2);
-    else
-      return axis_colour(0, group / count_[1], along()) * axis_colours(1, 3) + axis_colour(1, group % count_[1], 3);
-  }
+  /// Each group adds to sums of itself and of its forward neighbours; to those of the next row apart from what that row adds
+  /// itself (Store::carried), so rows do not disturb each other. Groups of one colour add to different sums and may run at once.
+  /// The colours of a row run in order, hence every sum has one order of terms whatever the threads do.
+  int colours() const { return dim == 2 ? 1 : axis_colours(1); }
+  int colour(int group) const { return dim == 2 ? 0 : axis_colour(1, group % count_[dim - 2]); }
 
  private:
-  /// Period of the colours along the first axis: a group writes to the images on either side of it.
-  int along() const { return domain_.mirrored ? 3 : 2; }
+  /// A group adds to columns up to one on either side of its own in the next row: three cells on, the next may do so.
+  static constexpr int period = 3;
   // A periodic ring whose length is no multiple of the period gives its last cells colours of their own.
-  int axis_colours(int axis, int period) const { return period + (domain_.periodic[axis] ? count_[axis] % period : 0); }
-  int axis_colour(int axis, int cell, int period) const {
+  int axis_colours(int axis) const { return period + (domain_.periodic[axis] ? count_[axis] % period : 0); }
+  int axis_colour(int axis, int cell) const {
     const int rest = domain_.periodic[axis] ? count_[axis] % period : 0;
     return cell >= count_[axis] - rest ? period + cell - (count_[axis] - rest) : cell % period;
   }
 
   template <class Visit>
-  void visit_cell(std::array<int, dim - 1> cell, Visit&& visit) const {
-    Neighbour<dim> neighbour;
+  void visit_cell(std::array<int, dim - 1> cell, Visit&& visit, bool in_next_row = false) const {
+    Neighbour<dim> neighbour{.in_next_row = in_next_row};
     int index = 0;
     for (int k = 0; k < dim - 1; ++k) {
       if (cell[k] < 0 || cell[k] >= count_[k]) {

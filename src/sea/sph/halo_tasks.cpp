@@ -39,29 +39,12 @@ std::vector<const GroupData*> data_of(const StepRecording<dim, Real>& r, HaloOf 
   return {&r.planes, &r.walls};
 }
 
-/// With the first planes of an evaluation sums begin anew.
-bool begins_sums(HaloOf what) { return what == HaloOf::planes || what == HaloOf::water; }
-
-/// What a group that is not own is given; sums too, which are cleared.
+/// What a group that is not own is given.
 template <int dim, class Real>
 Uses given(const StepRecording<dim, Real>& r, HaloOf what, int group) {
   Uses uses;
   for (const GroupData* data : data_of(r, what)) uses.push_back(writes((*data)[std::size_t(group)]));
-  if (begins_sums(what))
-    for (const GroupData* data : {&r.sums, &r.extra[0], &r.extra[1], &r.extra[2]})
-      uses.push_back(writes((*data)[std::size_t(group)]));
   return uses;
-}
-
-/// Sums of groups that are not own are of no use to anybody; they must only stay finite.
-template <int dim, class Real>
-void clear_sums(Store<dim, Real>& store, const Group& group) {
-  constexpr std::size_t size = sum_planes<dim> * cluster_size;
-  std::fill(store.sums.data() + group.fluid * size, store.sums.data() + group.end * size, Real(0));
-  for (std::size_t n = 0; n < store.extra_sums.size(); ++n) {
-    const std::size_t extra = std::size_t(store.extra_planes[n]) * cluster_size;
-    std::fill_n(store.extra_sums[n].data() + group.fluid * extra, (group.end - group.fluid) * extra, Real(0));
-  }
 }
 
 /// Copies planes of 16 numbers, those that change their sign in a mirror with the other one.
@@ -87,7 +70,6 @@ void mirror(Store<dim, Real>& store, const Group& of, const Group& image, HaloOf
       set_box(store, to);
     }
   }
-  if (begins_sums(what)) clear_sums(store, image);
 }
 
 }  // namespace
@@ -159,7 +141,6 @@ void HaloTasks<dim, Real>::record(StepRecording<dim, Real>& recording, const std
                        std::copy(from, from + size, values(cluster));
                        if (!stress) set_box(store, cluster);
                      }
-                     if (begins_sums(what)) clear_sums(store, group);
                    }
                  }));
   }

@@ -319,10 +319,14 @@ void exchange_halo_structure(Store<dim, Real>& store, const Columns<dim>& column
   }
   append_images(store, columns, subdomain);
   store.pack.resize(store.all_clusters() * pack_planes<dim> * cluster_size);
-  store.sums.resize(store.all_clusters() * sum_planes<dim> * cluster_size);
+  store.sums.resize(store.slots() * sum_planes<dim>);
+  if (const std::size_t before = store.carried.size(), now = store.slots() * std::size_t(store.carried_planes()); before != now) {
+    store.carried.resize(now);
+    if (before < now) std::fill(store.carried.begin() + std::ptrdiff_t(before), store.carried.end(), Real(0));
+  }
   store.stress.resize(store.all_clusters() * std::size_t(store.stress_planes) * cluster_size);
   for (std::size_t n = 0; n < store.extra_sums.size(); ++n)
-    store.extra_sums[n].resize(store.all_clusters() * std::size_t(store.extra_planes[n]) * cluster_size);
+    store.extra_sums[n].resize(store.slots() * std::size_t(store.extra_planes[n]));
   for (int k = 0; k < dim; ++k) {
     // The search reads boxes a register at a time: one register more than there are clusters.
     store.low[k].resize(store.all_clusters() + cluster_size);
@@ -370,37 +374,21 @@ void fill(Store<dim, Real>& store, const SeedStream<dim>& seeds, const Columns<d
     });
   };
   store.owners = seeds.owners();
-  std::size_t water = 0;
-  visit_mine([&](std::size_t, const Seed<dim>& seed) { water += seed.owner == 0; });
-  const auto add = [&](std::size_t id, const Seed<dim>& seed) {
-    for (int k = 0; k < dim; ++k) store.x[k].push_back(seed.position[k]), store.v[k].push_back(seed.velocity[k]);
-    store.deviation.push_back(seed.deviation);
-    store.id.push_back(std::uint32_t(id));
-  };
-  const auto finish_owner = [&](int owner) {
-    const std::size_t clusters = (store.id.size() + cluster_size - 1) / cluster_size;
-    store.id.resize(clusters * cluster_size, no_particle);
-    store.deviation.resize(clusters * cluster_size, 0.0);
-    for (int k = 0; k < dim; ++k)
-      store.x[k].resize(clusters * cluster_size, 0.0), store.v[k].resize(clusters * cluster_size, 0.0);
-    store.owner.resize(clusters, std::uint16_t(owner));
-  };
-  // Most seeds are water: it goes where it belongs at once. Solids wait for it to end.
-  store.id.reserve(water), store.deviation.reserve(water);
-  for (int k = 0; k < dim; ++k) store.x[k].reserve(water), store.v[k].reserve(water);
-  std::vector<std::vector<std::pair<std::size_t, Seed<dim>>>> of_solid(std::size_t(store.owners));
-  visit_mine([&](std::size_t id, const Seed<dim>& seed) {
-    if (seed.owner == 0)
-      add(id, seed);
-    else
-      of_solid[seed.owner].emplace_back(id, seed);
-  });
-  finish_owner(0);
-  for (int owner = 1; owner < store.owners; ++owner) {
-    for (const auto& [id, seed] : of_solid[std::size_t(owner)]) add(id, seed);
-    finish_owner(owner);
-    release(of_solid[std::size_t(owner)]);
+  std::vector<std::size_t> next(std::size_t(store.owners), 0);  // slot, by owner; counts to begin with
+  visit_mine([&](std::size_t, const Seed<dim>& seed) { ++next[seed.owner]; });
+  for (std::size_t owner = 0; owner < next.size(); ++owner) {
+    const std::size_t clusters = (next[owner] + cluster_size - 1) / cluster_size;
+    next[owner] = store.owner.size() * cluster_size;
+    store.owner.insert(store.owner.end(), clusters, std::uint16_t(owner));
   }
+  const std::size_t slots = store.owner.size() * cluster_size;
+  store.id.resize(slots, no_particle), store.deviation.resize(slots, 0.0);
+  for (int k = 0; k < dim; ++k) store.x[k].resize(slots, 0.0), store.v[k].resize(slots, 0.0);
+  visit_mine([&](std::size_t id, const Seed<dim>& seed) {
+    const std::size_t slot = next[seed.owner]++;
+    store.id[slot] = std::uint32_t(id), store.deviation[slot] = seed.deviation;
+    for (int k = 0; k < dim; ++k) store.x[k][slot] = seed.position[k], store.v[k][slot] = seed.velocity[k];
+  });
   Sorting<dim, Real>(store, columns, subdomain, anchor_step).all(comm);
 }
 

@@ -18,7 +18,7 @@
 namespace spindrift::sph {
 
 template <int dim, class Real>
-using GroupSweep = std::function<void(Real* sums, int group, NeighbourLists<dim, Real>&)>;
+using GroupSweep = std::function<void(SweepSums<Real>, int group, NeighbourLists<dim, Real>&)>;
 template <int dim, class Real>
 using GroupBoundary = std::function<void(Store<dim, Real>&, int group, Candidates<dim, Real>&)>;
 
@@ -72,7 +72,7 @@ class Schemes {
   template <class Water, class Solid>
   GroupSweep<dim, Real> sweep(const Water& water, const Solid& solid) const {
     return [&store = store_, &columns = columns_, &subdomain = subdomain_, reach = reach_, water, solid](
-               Real* sums, int group, NeighbourLists<dim, Real>& meets) {
+               SweepSums<Real> sums, int group, NeighbourLists<dim, Real>& meets) {
       sweep_pairs(store, sums, columns, group, reach, meets, water, solid, [&](int other) { return subdomain.owns(other); });
     };
   }

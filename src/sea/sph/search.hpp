@@ -75,25 +75,26 @@ class Candidates {
   void reserve(std::size_t clusters) {
     const std::size_t room = clusters + 2 * cluster_size;
     if (room <= cluster_.size()) return;
-    cluster_.resize(room), chosen_.resize(room);
+    cluster_.resize(room), chosen_.resize(room), sums_.resize(room);
     for (int k = 0; k < dim; ++k) low_[k].resize(room), high_[k].resize(room), shift_[k].resize(room);
   }
   void clear() { count_ = 0; }
   int size() const { return count_; }
 
-  /// Adds the clusters [first, end) of a group that come within `reach` of cluster `mine`; `shift` from periodic sides.
+  /// Adds the clusters [first, end) of a group that come within `reach` of cluster `mine`; `shift` from periodic sides; `sums`:
+  /// of cluster `first`, `size` numbers a cluster, where a sweep adds to those of the clusters.
   void add(const Store<dim, Real>& store, std::uint32_t mine, std::uint32_t first, std::uint32_t end,
-           const std::array<double, dim>& shift, float reach) {
+           const std::array<double, dim>& shift, float reach, Real* sums = nullptr, std::size_t size = 0) {
     std::array<float, dim> box_low, box_high;
     std::array<double, dim> anchor;
     for (int k = 0; k < dim; ++k)
       box_low[k] = store.low[k][mine], box_high[k] = store.high[k][mine], anchor[k] = store.anchor[k][mine];
-    add(store, box_low, box_high, anchor, first, end, shift, reach);
+    add(store, box_low, box_high, anchor, first, end, shift, reach, sums, size);
   }
   /// The same for any box (from the corner of the domain) whose points are told relative to `anchor`.
   void add(const Store<dim, Real>& store, std::array<float, dim> box_low, std::array<float, dim> box_high,
            const std::array<double, dim>& anchor, std::uint32_t first, std::uint32_t end, const std::array<double, dim>& shift,
-           float reach) {
+           float reach, Real* sums = nullptr, std::size_t size = 0) {
     for (int k = 0; k < dim; ++k) box_low[k] -= float(shift[k]), box_high[k] -= float(shift[k]);
     const int before = count_;
     std::array<const float*, dim> low, high;
@@ -106,6 +107,7 @@ class Candidates {
     count_ = found;
     for (int n = before; n < count_; ++n) {
       const std::uint32_t other = cluster_[n];
+      sums_[n] = sums + (other - first) * size;
       for (int k = 0; k < dim; ++k) {
         low_[k][n] = store.low[k][other] + float(shift[k]);
         high_[k][n] = store.high[k][other] + float(shift[k]);
@@ -138,10 +140,11 @@ class Candidates {
   /// Plain pointers for the inner loop.
   struct View {
     const std::uint32_t *chosen, *cluster;
+    Real* const* sums;
     std::array<const Real*, dim> shift;
   };
   View view() const {
-    View v{chosen_.data(), cluster_.data(), {}};
+    View v{chosen_.data(), cluster_.data(), sums_.data(), {}};
     for (int k = 0; k < dim; ++k) v.shift[k] = shift_[k].data();
     return v;
   }
@@ -149,6 +152,7 @@ class Candidates {
  private:
   int count_ = 0;
   Array<std::uint32_t> cluster_, chosen_;
+  Array<Real*> sums_;
   std::array<Array<float>, dim> low_, high_;
   std::array<Array<Real>, dim> shift_;
 };

@@ -9,17 +9,18 @@ namespace {
 
 constexpr std::size_t clusters_per_pass = 256;  // of a bundle for sweeps that touch each particle once: 50 us
 constexpr std::size_t clusters_per_pairs = 24;  // of a bundle for pair sweeps: 100 us; a column in 3-D has more by itself
+constexpr std::size_t solids_per_walls = 32;    // of a bundle for walls that look round for water: 50 us
 constexpr std::size_t groups_per_bundle = 64;   // of empty columns, which may fill: no bundle spans the scene
 
-/// Consecutive groups with about `wanted` clusters.
+/// Consecutive groups with about `wanted` clusters, counted from `first` on: all of a group, or its solids.
 template <int dim, class Real>
 void bundle(const Store<dim, Real>& store, const std::vector<int>& groups, std::size_t wanted,
-            std::vector<std::vector<int>>& into) {
+            std::vector<std::vector<int>>& into, std::uint32_t Group::*first = &Group::fluid) {
   std::size_t clusters = wanted;
   for (const int g : groups) {
     if (clusters >= wanted || into.back().size() >= groups_per_bundle) into.emplace_back(), clusters = 0;
     into.back().push_back(g);
-    clusters += store.groups[std::size_t(g)].end - store.groups[std::size_t(g)].fluid;
+    clusters += store.groups[std::size_t(g)].end - store.groups[std::size_t(g)].*first;
   }
 }
 
@@ -29,6 +30,7 @@ template <int dim, class Real>
 StepRecording<dim, Real>::StepRecording(SeaState<dim, Real>& sea, runtime::Graph& graph) : sea(sea), graph(graph) {
   const Subdomain& subdomain = sea.subdomain;
   bundle(sea.store, subdomain.own, clusters_per_pass, bundles);
+  bundle(sea.store, subdomain.own, solids_per_walls, wall_bundles, &Group::solid);
   std::vector<std::vector<int>> colours(std::size_t(sea.columns.colours()));
   for (int g = 0; g < sea.columns.groups(); ++g) {
     bool swept = subdomain.owns(g);  // a group of another rank is swept for its pairs with mine
@@ -39,7 +41,7 @@ StepRecording<dim, Real>::StepRecording(SeaState<dim, Real>& sea, runtime::Graph
 
   order = graph.datum(), plan = graph.datum(), loads = graph.datum();
   // Places follow the own groups, so that a thread keeps its region; groups of the halo have none.
-  for (GroupData* data : {&state, &planes, &walls, &sums, &stress, &touches, &extra[0], &extra[1], &extra[2]}) {
+  for (GroupData* data : {&state, &planes, &walls, &sums, &carried, &stress, &touches, &extra[0], &extra[1], &extra[2]}) {
     data->resize(std::size_t(sea.columns.groups_and_images()));
     for (std::size_t n = 0; n < subdomain.own.size(); ++n)
       (*data)[std::size_t(subdomain.own[n])] = graph.datum(float(n) / float(subdomain.own.size()));

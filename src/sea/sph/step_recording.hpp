@@ -52,9 +52,10 @@ struct StepRecording {
   SeaState<dim, Real>& sea;
   runtime::Graph& graph;
   std::vector<std::vector<int>> bundles;       ///< own groups, some thousand particles each
+  std::vector<std::vector<int>> wall_bundles;  ///< own groups, some hundred particles of walls and bodies each
   std::vector<std::vector<int>> pair_bundles;  ///< groups of one colour, colour by colour
   runtime::Datum order, plan, loads;           ///< of groups and particles in memory; sea.plan; where bodies are
-  GroupData state, planes, walls, sums, stress, extra[3], touches;
+  GroupData state, planes, walls, sums, carried, stress, extra[3], touches;
   /// Which of the planned steps a task recorded now is part of, seen from within it.
   std::function<int(const runtime::Context&)> step = [](const runtime::Context&) { return 0; };
   std::function<bool(int step)> due = {};  ///< further condition on the tasks recorded now

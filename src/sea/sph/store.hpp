@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -38,9 +39,10 @@ struct Store {
   Array<std::uint32_t> id;                  ///< of the halo's particles too
   std::array<Array<double>, dim> v_before;  ///< one step earlier; empty unless the step is Verlet's
   Array<double> deviation_before;
-  // per cluster, those of own groups first, then those of the halo
+  // per cluster, those of own groups first, then those of the halo; of sums own groups alone
   Array<Real> pack, sums;
   std::array<Array<Real>, 3> extra_sums;    ///< of the density filter, of shifting, of strain; empty without
+  Array<Real> carried;                      ///< what a sweep adds to the next row of columns, until it is joined; else zero
   Array<Real> stress;                       ///< tau/rho^2 of the sub-particle model; empty without it
   Array<std::uint16_t> owner;               ///< 0 water, 1 + n the solid n
   std::array<Array<double>, dim> anchor;    ///< multiples of a power of two, so that differences are exact in Real [m]
@@ -55,6 +57,8 @@ struct Store {
   std::size_t longest = 0;           ///< clusters of the largest group
   std::array<double, dim> corner{};  ///< lowest corner of the domain, where boxes are measured from [m]
 
+  /// Planes of `carried`: of the sweep that has most.
+  int carried_planes() const { return std::max(sum_planes<dim>, *std::max_element(extra_planes.begin(), extra_planes.end())); }
   double weight_of(std::size_t cluster) const { return weights.empty() ? 1.0 : weights[owner[cluster]]; }
   /// Anchor of a cluster from the corner of the domain [m].
   float frame(int axis, std::size_t cluster) const { return float(anchor[axis][cluster] - corner[axis]); }
@@ -68,8 +72,8 @@ struct Store {
 
   std::size_t bytes() const {
     std::size_t total = deviation.capacity() * 8 + id.capacity() * 4 +
-                        (pack.capacity() + sums.capacity() + stress.capacity()) * sizeof(Real) + owner.capacity() * 2 +
-                        groups.capacity() * sizeof(Group);
+                        (pack.capacity() + sums.capacity() + carried.capacity() + stress.capacity()) * sizeof(Real) +
+                        owner.capacity() * 2 + groups.capacity() * sizeof(Group);
     for (const Array<Real>& array : extra_sums) total += array.capacity() * sizeof(Real);
     total += deviation_before.capacity() * 8;
     for (int k = 0; k < dim; ++k)

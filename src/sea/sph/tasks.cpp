@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "runtime/graph/sizes.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/sea/sph/filters.hpp"
 #include "src/sea/sph/step.hpp"
@@ -160,8 +161,7 @@ void StepTasks<dim, Real>::evaluate(Half half) {
   auto& r = recording_;
   show_planes(half, "halo");
   stress();
-  sweep_pairs(
-      "pairs", sweeps_.rates, [&store = r.sea.store] { return store.sums.data(); }, r.sums, bool(sweeps_.strain));
+  sweep_pairs("pairs", sweeps_.rates, r.sea.store.sums, sum_planes<dim>, r.sums, bool(sweeps_.strain));
   record_contacts(r);
 }
 
@@ -180,23 +180,26 @@ void StepTasks<dim, Real>::sort() {
   auto& r = recording_;
   using S = Sorting<dim, Real>;
   SeaState<dim, Real>& sea = r.sea;
-  const auto part = r.graph.data(std::size_t(S::parts));
+  // Without places: a part is of the work on what this rank holds, not of the tank.
+  std::vector<Datum> part;
+  for (int n = 0; n < S::parts; ++n) part.push_back(r.graph.datum());
+  const auto record = [&r](std::uint32_t node) { runtime::set_on_all(r.graph, node); };
   const auto serial = [&](const std::string& label, auto&& work) {
-    r.graph.task(label, {updates(r.order), updates(r.plan), updates(part)}, [&sea, &sorting = sorting_, work] {
+    record(r.graph.task(label, {updates(r.order), updates(r.plan), updates(part)}, [&sea, &sorting = sorting_, work] {
       if (sea.plan.sort) work(sorting);
-    });
+    }));
   };
   const auto parallel = [&](const std::string& label, int count, auto&& work) {
     for (int n = 0; n < count; ++n)
-      r.graph.task(task_name(label, std::size_t(n)), {reads(r.order), updates(part[std::size_t(n)])},
-                   [&sea, &sorting = sorting_, work, n] {
-                     if (sea.plan.sort) work(sorting, n);
-                   });
+      record(r.graph.task(task_name(label, std::size_t(n)), {reads(r.order), updates(part[std::size_t(n)])},
+                          [&sea, &sorting = sorting_, work, n] {
+                            if (sea.plan.sort) work(sorting, n);
+                          }));
   };
   const auto together = [&](const std::string& label, auto&& work) {
-    r.graph.collective(
+    record(r.graph.collective(
         label, {updates(r.order), updates(r.plan), updates(part)},
-        [&sorting = sorting_, work](MPI_Comm comm) { work(sorting, comm); }, [&sea] { return sea.plan.sort; });
+        [&sorting = sorting_, work](MPI_Comm comm) { work(sorting, comm); }, [&sea] { return sea.plan.sort; }));
   };
   serial("sea/sort/begin", [](S& s) { s.begin(); });
   parallel("sort/classify", S::parts, [](S& s, int n) { s.classify(n); });
@@ -225,9 +228,9 @@ void StepTasks<dim, Real>::set_walls() {
     r.sea.columns.for_forward(g, [&](const Neighbour<dim>& near) {
       around[std::size_t(g)].push_back(near.group), around[std::size_t(near.group)].push_back(g);
     });
-  for (std::size_t b = 0; b < r.bundles.size(); ++b) {
+  for (std::size_t b = 0; b < r.wall_bundles.size(); ++b) {
     Uses uses = {reads(r.order), reads(r.plan), reads(r.loads)};
-    for (const int g : r.bundles[b]) {
+    for (const int g : r.wall_bundles[b]) {
       uses.push_back(updates(r.walls[std::size_t(g)])), uses.push_back(updates(r.state[std::size_t(g)]));
       uses.push_back(reads(r.planes[std::size_t(g)]));
       for (const int near : around[std::size_t(g)]) {
@@ -237,7 +240,7 @@ void StepTasks<dim, Real>::set_walls() {
       }
     }
     r.graph.task(task_name("walls", b), uses,
-                 r.if_active([&sea = r.sea, &sweeps = sweeps_, &groups = r.bundles[b], &lists = neighbour_lists_](
+                 r.if_active([&sea = r.sea, &sweeps = sweeps_, &groups = r.wall_bundles[b], &lists = neighbour_lists_](
                                  const Context& context, int) {
                    Candidates<dim, Real>& water = lists[std::size_t(context.thread)].water;
                    water.reserve((dim == 2 ? 5 : 25) * sea.store.longest);
@@ -253,8 +256,8 @@ void StepTasks<dim, Real>::stress() {
   auto& r = recording_;
   if (!sweeps_.strain) return;
   clear_sums(r, of_strain, "strain");
-  sweep_pairs(
-      "strain", sweeps_.strain, [&store = r.sea.store] { return store.extra_sums[of_strain].data(); }, r.extra[of_strain]);
+  sweep_pairs("strain", sweeps_.strain, r.sea.store.extra_sums[of_strain], r.sea.store.extra_planes[of_strain],
+              r.extra[of_strain]);
   for (std::size_t b = 0; b < r.bundles.size(); ++b) {
     Uses uses = of_groups(r.bundles[b], writes, r.stress);
     for (const int g : r.bundles[b])
@@ -267,32 +270,43 @@ void StepTasks<dim, Real>::stress() {
   halo_.record(r, "stress/halo", HaloOf::stress);
 }
 
-/// Pairs of each group with itself and its forward neighbours. Sums are updated in the order of recording, colour by colour: the
-/// same bits for any number of threads and ranks, and whatever is bundled.
+/// Pairs of each group with itself and its forward neighbours. Sums are updated in the order of recording, colour by colour, and
+/// what each row carried to the next is added last: the same bits for any number of threads and ranks, and whatever is bundled.
 template <int dim, class Real>
-void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums,
+void StepTasks<dim, Real>::sweep_pairs(const std::string& label, const Sweep& sweep, Array<Real>& sums, int planes,
                                        const GroupData& data, bool with_stress) {
   auto& r = recording_;
+  const auto to = [&sums, &carried = r.sea.store.carried, stride = std::size_t(r.sea.store.carried_planes()) * cluster_size] {
+    return SweepSums<Real>{sums.data(), carried.data(), stride};
+  };
   for (std::size_t b = 0; b < r.pair_bundles.size(); ++b) {
     Uses uses = {reads(r.order), reads(r.plan)};
-    const auto touch = [&](int g) {
+    const auto touch = [&](int g, const GroupData& adds_to) {
       uses.push_back(reads(r.planes[std::size_t(g)])), uses.push_back(reads(r.walls[std::size_t(g)]));
-      uses.push_back(updates(data[std::size_t(g)]));
       if (with_stress) uses.push_back(reads(r.stress[std::size_t(g)]));
+      if (r.sea.subdomain.owns(g)) uses.push_back(updates(adds_to[std::size_t(g)]));
     };
     for (const int g : r.pair_bundles[b]) {
-      touch(g);
+      touch(g, data);
       r.sea.columns.for_forward(g, [&](const Neighbour<dim>& near) {
-        if (r.sea.subdomain.owns(g) || r.sea.subdomain.owns(near.group)) touch(near.group);
+        if (r.sea.subdomain.owns(g) || r.sea.subdomain.owns(near.group)) touch(near.group, near.in_next_row ? r.carried : data);
       });
     }
-    r.graph.task(task_name(label, b), uses,
-                 r.if_active([&sea = r.sea, &groups = r.pair_bundles[b], &lists = neighbour_lists_, &sweep, sums](
-                                 const Context& context, int) {
-                   NeighbourLists<dim, Real>& mine = lists[std::size_t(context.thread)];
-                   mine.reserve(9 * sea.store.longest);
-                   for (const int g : groups) sweep(sums(), g, mine);
-                 }));
+    const auto work = [&sea = r.sea, &groups = r.pair_bundles[b], &lists = neighbour_lists_, &sweep, to](const Context& context,
+                                                                                                         int) {
+      NeighbourLists<dim, Real>& mine = lists[std::size_t(context.thread)];
+      mine.reserve(9 * sea.store.longest);
+      for (const int g : groups) sweep(to(), g, mine);
+    };
+    runtime::set_in_parts(r.graph, r.graph.task(task_name(label, b), uses, r.if_active(work)));
+  }
+  for (std::size_t b = 0; b < r.bundles.size(); ++b) {
+    Uses uses = of_groups(r.bundles[b], updates, data);
+    for (const int g : r.bundles[b]) uses.push_back(updates(r.carried[std::size_t(g)]));
+    uses.push_back(reads(r.order)), uses.push_back(reads(r.plan));
+    r.graph.task(task_name(label + "/join", b), uses, r.if_active([&sea = r.sea, &groups = r.bundles[b], to, planes] {
+      for (const int g : groups) join_carried(sea.store, to(), g, std::size_t(planes) * cluster_size);
+    }));
   }
 }
 
@@ -355,8 +369,7 @@ void StepTasks<dim, Real>::extra_sweep(std::size_t which, const std::string& lab
   r.due = std::move(due);
   clear_sums(r, which, label);
   show_planes(Half::begin, label + "/halo");
-  sweep_pairs(
-      label, sweep, [&store = r.sea.store, which] { return store.extra_sums[which].data(); }, r.extra[which]);
+  sweep_pairs(label, sweep, r.sea.store.extra_sums[which], r.sea.store.extra_planes[which], r.extra[which]);
   for (std::size_t b = 0; b < r.bundles.size(); ++b) {
     Uses uses = of_groups(r.bundles[b], updates, r.state);
     for (const int g : r.bundles[b]) uses.push_back(reads(r.extra[which][std::size_t(g)]));

@@ -50,7 +50,7 @@ class StepTasks {
   void show_planes(Half half, const std::string& label);
   void set_walls();
   void stress();
-  void sweep_pairs(const std::string& label, const Sweep& sweep, std::function<Real*()> sums, const GroupData& data,
+  void sweep_pairs(const std::string& label, const Sweep& sweep, Array<Real>& sums, int planes, const GroupData& data,
                    bool with_stress = false);
   void extra_sweep(std::size_t which, const std::string& label, const Sweep& sweep, std::function<bool(int step)> due,
                    std::function<double(int group, int step)> apply);

@@ -62,6 +62,34 @@ void goes_back_bit_for_bit(StepChoice step, MPI_Comm comm) {
   CHECK(values_of(other, scene.seeds.size(), comm) == first);
 }
 
+void visits_what_is_wanted(MPI_Comm comm) {
+  const Pool scene;
+  SeaSph<2, float> sea(scene.p, scene.domain, scene.seeds, {.comm = comm, .threads = 1});
+  for (int n = 0; n < 40; ++n) sea.step(1.0);
+  sea.sort();
+  REQUIRE(sea.store().lost.size() == 1);
+  const auto all = by_identity(sea, scene.seeds.size(), comm);
+  std::vector<std::uint32_t> expected, visited;
+  const auto wanted = [](std::uint16_t owner, const std::array<double, 2>& x) { return owner == 0 && x[0] < 2.0; };
+  for (std::size_t id = all.range.first; id < all.range.last; ++id) {
+    const double* x = &all.values[5 * (id - all.range.first)];
+    if (id != sea.store().lost[0].id && wanted(scene.seeds[id].owner, {x[0], x[1]})) expected.push_back(std::uint32_t(id));
+  }
+  std::size_t count = 0, wrong = 0;
+  visit_by_identity(
+      sea, scene.seeds.size(), comm, wanted, [&](std::size_t n) { count = n; },
+      [&](std::uint32_t id, std::uint16_t owner, const std::array<double, 2>& x, const std::array<double, 2>& v,
+          double deviation) {
+        visited.push_back(id);
+        const double* of = &all.values[5 * (id - all.range.first)];
+        wrong += owner != 0 || x[0] != of[0] || x[1] != of[1] || v[0] != of[2] || v[1] != of[3] || deviation != of[4];
+      });
+  CHECK(visited.size() > 10);
+  CHECK(visited == expected);
+  CHECK(count == visited.size());
+  CHECK(wrong == 0);
+}
+
 }  // namespace
 
 TEST_CASE("runs of identities share out all particles, and each knows its rank", "[sph][identity][fast]") {
@@ -82,6 +110,8 @@ TEST_CASE("runs of identities share out all particles, and each knows its rank",
 TEST_CASE("a state by identity goes back in bit for bit, with what was lost, with either step", "[sph][identity][fast]") {
   goes_back_bit_for_bit(GENERATE(StepChoice::symplectic, StepChoice::verlet), MPI_COMM_SELF);
 }
+
+TEST_CASE("particles that are wanted are visited by identity", "[sph][identity][fast]") { visits_what_is_wanted(MPI_COMM_SELF); }
 
 TEST_CASE("a state of another sea is refused", "[sph][identity][fast]") {
   const Pool scene;
@@ -112,4 +142,8 @@ TEST_CASE("on two ranks the state by identity and all instruments have the bits 
 }
 TEST_CASE("a state by identity goes back in bit for bit on two ranks", "[sph][identity][mpi2]") {
   goes_back_bit_for_bit(StepChoice::symplectic, MPI_COMM_WORLD);
+}
+
+TEST_CASE("particles that are wanted are visited by identity on two ranks", "[sph][identity][mpi2]") {
+  visits_what_is_wanted(MPI_COMM_WORLD);
 }
