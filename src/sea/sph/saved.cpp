@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/sph/saved.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -159,6 +160,8 @@ void restore_groups(SeaState<dim, Real>& sea, std::span<const Saved<dim>> pieces
       value += slots;
     });
   }
+  // A window that failed may have ended between a sweep and the task that joins what it carried.
+  std::fill(store.carried.begin(), store.carried.end(), Real(0));
   const Saved<dim>& s = pieces.front();
   store.lost = s.lost;
   Plan& plan = sea.plan;
