@@ -219,7 +219,10 @@ class Sea final : public ParticleSea {
           sample.id.reserve(count), sample.position.reserve(3 * count), sample.velocity.reserve(3 * count);
           for (std::vector<double>* one : {&sample.pressure, &sample.density, &sample.owner}) one->reserve(count);
         },
-        [&](std::uint32_t id, std::uint16_t owner, const Vector& x, const Vector& v, double deviation) {
+        [&](std::uint32_t id, std::uint16_t owner, std::span<const double> values) {
+          Vector x, v;
+          for (int k = 0; k < dim; ++k) x[k] = values[k], v[k] = values[dim + k];
+          const double deviation = values[2 * dim];
           const Eigen::Vector3d at = sph::to_earth<dim>(x), speed = sph::to_earth<dim>(v);
           sample.id.push_back(std::int64_t(id));
           for (int k = 0; k < 3; ++k) sample.position.push_back(at[k]), sample.velocity.push_back(speed[k]);

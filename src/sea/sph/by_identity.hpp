@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -34,6 +35,54 @@ std::size_t values_per_particle(const Parameters& p) {
   return p.step == StepChoice::verlet ? 3 * dim + 2 : 2 * dim + 1;
 }
 
+/// Those of the particle in a slot, in this order.
+template <int dim, class Real>
+void read_values(const Store<dim, Real>& store, std::size_t slot, std::span<double> values) {
+  auto out = values.begin();
+  for (int k = 0; k < dim; ++k) *out++ = store.x[k][slot];
+  for (int k = 0; k < dim; ++k) *out++ = store.v[k][slot];
+  *out++ = store.deviation[slot];
+  if (out == values.end()) return;
+  for (int k = 0; k < dim; ++k) *out++ = store.v_before[k][slot];
+  *out++ = store.deviation_before[slot];
+}
+
+/// Deals the particles out whose slot is `wanted`: this rank is told of those of its run of identities, here(slot) of its own and
+/// came(id, owner, values) of the others', in any order. Collective.
+template <int dim, class Real, class Wanted, class Here, class Came>
+void deal_out(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm, Wanted&& wanted, Here&& here, Came&& came) {
+  const Store<dim, Real>& store = sea.store();
+  const int ranks = runtime::ranks_in(comm);
+  const IdentityRange mine = identities_of(particles, runtime::rank_in(comm), ranks);
+  std::vector<double> values(values_per_particle<dim>(sea.parameters()));
+  struct Head {
+    std::uint32_t id;
+    std::uint16_t owner;
+  };
+  std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
+  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
+    const std::uint32_t id = store.id[slot];
+    if (id == no_particle || !wanted(slot)) continue;
+    if (id >= mine.first && id < mine.last) {
+      here(slot);
+      continue;
+    }
+    runtime::Packer& to = away[std::size_t(rank_of_identity(id, particles, ranks))];
+    read_values(store, slot, values);
+    to.put_one(Head{id, store.owner[slot / cluster_size]});
+    to.put(std::span<const double>(values));
+  }
+  if (ranks == 1) return;
+  std::vector<runtime::Bytes> parcels;
+  for (runtime::Packer& packer : away) parcels.push_back(packer.take());
+  for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
+    for (runtime::Unpacker from(bytes); !from.done();) {
+      const Head head = from.one<Head>();
+      values = from.many<double>();
+      came(head.id, head.owner, std::span<const double>(values));
+    }
+}
+
 /// This rank's run of identities and their values; lost ones are where they left the sea.
 struct ByIdentity {
   IdentityRange range{};
@@ -45,96 +94,54 @@ template <int dim, class Real>
 ByIdentity by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm) {
   const Store<dim, Real>& store = sea.store();
   const std::size_t size = values_per_particle<dim>(sea.parameters());
-  const int ranks = runtime::ranks_in(comm);
-  ByIdentity mine{identities_of(particles, runtime::rank_in(comm), ranks), {}};
+  ByIdentity mine{identities_of(particles, runtime::rank_in(comm), runtime::ranks_in(comm)), {}};
   mine.values.resize((mine.range.last - mine.range.first) * size);
-  std::vector<double> values(size);
-  const auto keep = [&](std::size_t id) {
-    std::copy(values.begin(), values.end(), mine.values.begin() + std::ptrdiff_t((id - mine.range.first) * size));
-  };
-  std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
-  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
-    const std::uint32_t id = store.id[slot];
-    if (id == no_particle) continue;
-    auto out = values.begin();
-    for (int k = 0; k < dim; ++k) *out++ = store.x[k][slot];
-    for (int k = 0; k < dim; ++k) *out++ = store.v[k][slot];
-    *out++ = store.deviation[slot];
-    if (out != values.end()) {
-      for (int k = 0; k < dim; ++k) *out++ = store.v_before[k][slot];
-      *out++ = store.deviation_before[slot];
-    }
-    if (id >= mine.range.first && id < mine.range.last) {
-      keep(id);
-      continue;
-    }
-    runtime::Packer& to = away[std::size_t(rank_of_identity(id, particles, ranks))];
-    to.put_one(id);
-    to.put(std::span<const double>(values));
-  }
-  if (ranks > 1) {
-    std::vector<runtime::Bytes> parcels;
-    for (runtime::Packer& packer : away) parcels.push_back(packer.take());
-    for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
-      for (runtime::Unpacker from(bytes); !from.done();) {
-        const auto id = from.one<std::uint32_t>();
-        values = from.many<double>();
-        keep(id);
-      }
-  }
+  const auto of = [&](std::uint32_t id) { return std::span(mine.values).subspan((id - mine.range.first) * size, size); };
+  deal_out(
+      sea, particles, comm, [](std::size_t) { return true; },
+      [&](std::size_t slot) { read_values(store, slot, of(store.id[slot])); },
+      [&](std::uint32_t id, std::uint16_t, std::span<const double> values) { std::ranges::copy(values, of(id).begin()); });
   for (const LostParticle<dim>& lost : store.lost) {
     if (lost.id < mine.range.first || lost.id >= mine.range.last) continue;
-    double* out = mine.values.data() + (lost.id - mine.range.first) * size;
+    double* out = of(lost.id).data();
     for (int k = 0; k < dim; ++k) out[k] = lost.position[k], out[dim + k] = lost.velocity[k];
   }
   return mine;
 }
 
 /// Of this rank's run of identities those that `wanted(owner, position)` takes, by rising identity, without room for the others:
-/// `reserve(count)`, then `visit(id, owner, position, velocity, deviation)` for each. Collective.
+/// `reserve(count)`, then `visit(id, owner, values)` for each. Collective.
 template <int dim, class Real, class Wanted, class Reserve, class Visit>
 void visit_by_identity(const SeaSph<dim, Real>& sea, std::size_t particles, MPI_Comm comm, Wanted&& wanted, Reserve&& reserve,
                        Visit&& visit) {
-  struct Particle {
-    std::uint32_t id;
-    std::uint16_t owner;
-    std::array<double, dim> x, v;
-    double deviation;
-  };
   const Store<dim, Real>& store = sea.store();
-  const auto at = [&](std::size_t slot) {
-    Particle p{store.id[slot], store.owner[slot / cluster_size], {}, {}, store.deviation[slot]};
-    for (int k = 0; k < dim; ++k) p.x[k] = store.x[k][slot], p.v[k] = store.v[k][slot];
-    return p;
-  };
-  const int ranks = runtime::ranks_in(comm);
-  const IdentityRange range = identities_of(particles, runtime::rank_in(comm), ranks);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // identity; slot, or behind these the place in `came`
-  std::vector<runtime::Packer> away(std::size_t(ranks), runtime::Packer{});
-  for (std::size_t slot = 0; slot < store.slots(); ++slot) {
-    if (store.id[slot] == no_particle) continue;
-    const Particle p = at(slot);
-    if (!wanted(p.owner, p.x)) continue;
-    if (p.id >= range.first && p.id < range.last)
-      found.emplace_back(p.id, std::uint32_t(slot));
-    else
-      away[std::size_t(rank_of_identity(p.id, particles, ranks))].put_one(p);
-  }
-  std::vector<Particle> came;
-  if (ranks > 1) {
-    std::vector<runtime::Bytes> parcels;
-    for (runtime::Packer& packer : away) parcels.push_back(packer.take());
-    for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
-      for (runtime::Unpacker from(bytes); !from.done();) {
-        came.push_back(from.one<Particle>());
-        found.emplace_back(came.back().id, std::uint32_t(store.slots() + came.size() - 1));
-      }
-  }
+  const std::size_t size = values_per_particle<dim>(sea.parameters());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // identity; slot, or behind these the place among those that came
+  std::vector<std::uint16_t> owners;                           // of those that came
+  std::vector<double> came;
+  deal_out(
+      sea, particles, comm,
+      [&](std::size_t slot) {
+        std::array<double, dim> x;
+        for (int k = 0; k < dim; ++k) x[k] = store.x[k][slot];
+        return wanted(store.owner[slot / cluster_size], x);
+      },
+      [&](std::size_t slot) { found.emplace_back(store.id[slot], std::uint32_t(slot)); },
+      [&](std::uint32_t id, std::uint16_t owner, std::span<const double> values) {
+        found.emplace_back(id, std::uint32_t(store.slots() + owners.size()));
+        owners.push_back(owner), came.insert(came.end(), values.begin(), values.end());
+      });
   std::sort(found.begin(), found.end());
   reserve(found.size());
+  std::vector<double> own(size);
   for (const auto& [id, place] : found) {
-    const Particle p = place < store.slots() ? at(place) : came[place - store.slots()];
-    visit(id, p.owner, p.x, p.v, p.deviation);
+    if (place < store.slots()) {
+      read_values(store, place, own);
+      visit(id, store.owner[place / cluster_size], std::span<const double>(own));
+    } else {
+      const std::size_t n = place - store.slots();
+      visit(id, owners[n], std::span<const double>(came).subspan(n * size, size));
+    }
   }
 }
 

@@ -134,16 +134,26 @@ TEST_CASE("latency is felt where nothing is left to hide it", "[replay][fast]") 
   CHECK(simulate(cut.ranks, cluster).wall_s >= 6 * 1000 * us);
 }
 
-TEST_CASE("work that writes tiles of two ranks is done on both", "[replay][fast]") {
+namespace {
+
+/// Four tiles in a row, and pairs of neighbours, which write both.
+RankRun tiles_and_pairs(bool in_parts) {
   Graph g;
   const auto state = g.data(4), force = g.data(4), other = g.data(4);
   for (std::size_t n = 0; n < 4; ++n)
     g.task("sea/move/" + std::to_string(n), {updates(state[n]), updates(force[n]), updates(other[n])}, [] {});
-  for (std::size_t n = 0; n + 1 < 4; ++n)
-    g.task("sea/pairs/" + std::to_string(n), {reads(state[n]), reads(state[n + 1]), updates(force[n]), updates(force[n + 1])},
-           [] {});
-  const RankRun whole =
-      worked_out(std::move(g), [](const std::string& label) { return label.starts_with("sea/pairs") ? 10'000 : 100'000; });
+  for (std::size_t n = 0; n + 1 < 4; ++n) {
+    const std::uint32_t pairs = g.task("sea/pairs/" + std::to_string(n),
+                                       {reads(state[n]), reads(state[n + 1]), updates(force[n]), updates(force[n + 1])}, [] {});
+    if (in_parts) set_in_parts(g, pairs);
+  }
+  return worked_out(std::move(g), [](const std::string& label) { return label.starts_with("sea/pairs") ? 10'000 : 100'000; });
+}
+
+}  // namespace
+
+TEST_CASE("work that writes tiles of two ranks is done on both", "[replay][fast]") {
+  const RankRun whole = tiles_and_pairs(false);
   const Recut cut = recut(whole.graph, whole.run, 2);
   CHECK(cut.repeated == Approx(10.0 / 430.0));  // the pairs of the two tiles at the cut
   const Simulated s = simulate(cut.ranks, ideal(2, 1));
@@ -152,15 +162,7 @@ TEST_CASE("work that writes tiles of two ranks is done on both", "[replay][fast]
 }
 
 TEST_CASE("of work in parts the rank of the first does all, another one its own parts", "[replay][fast]") {
-  Graph g;
-  const auto state = g.data(4), force = g.data(4), other = g.data(4);
-  for (std::size_t n = 0; n < 4; ++n)
-    g.task("sea/move/" + std::to_string(n), {updates(state[n]), updates(force[n]), updates(other[n])}, [] {});
-  for (std::size_t n = 0; n + 1 < 4; ++n)
-    set_in_parts(g, g.task("sea/pairs/" + std::to_string(n),
-                           {reads(state[n]), reads(state[n + 1]), updates(force[n]), updates(force[n + 1])}, [] {}));
-  const RankRun whole =
-      worked_out(std::move(g), [](const std::string& label) { return label.starts_with("sea/pairs") ? 10'000 : 100'000; });
+  const RankRun whole = tiles_and_pairs(true);
   const Recut cut = recut(whole.graph, whole.run, 2);
   CHECK(cut.repeated == Approx(5.0 / 430.0));  // one of the two parts of the pairs at the cut
   std::vector<double> s;

@@ -78,11 +78,9 @@ void visits_what_is_wanted(MPI_Comm comm) {
   std::size_t count = 0, wrong = 0;
   visit_by_identity(
       sea, scene.seeds.size(), comm, wanted, [&](std::size_t n) { count = n; },
-      [&](std::uint32_t id, std::uint16_t owner, const std::array<double, 2>& x, const std::array<double, 2>& v,
-          double deviation) {
+      [&](std::uint32_t id, std::uint16_t owner, std::span<const double> values) {
         visited.push_back(id);
-        const double* of = &all.values[5 * (id - all.range.first)];
-        wrong += owner != 0 || x[0] != of[0] || x[1] != of[1] || v[0] != of[2] || v[1] != of[3] || deviation != of[4];
+        wrong += owner != 0 || !std::equal(values.begin(), values.end(), &all.values[5 * (id - all.range.first)]);
       });
   CHECK(visited.size() > 10);
   CHECK(visited == expected);

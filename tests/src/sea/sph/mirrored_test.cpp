@@ -155,7 +155,8 @@ TEST_CASE("half a sea beside a plane of symmetry moves as the half of a whole on
   CHECK(densest < 1e-9 * half.p.eos.rho0);
 }
 
-TEST_CASE("columns beside a plane of symmetry meet each image once", "[sph][fast]") {
+TEST_CASE("columns beside a plane of symmetry meet each image once, and those of one colour add to no common sums",
+          "[sph][fast]") {
   const bool periodic = GENERATE(false, true);
   const int nx = GENERATE(3, 4, 5, 7), ny = GENERATE(1, 3, 4);
   Domain<3> domain{{0, 0, 0}, {double(nx), double(ny), 1}, {periodic, false, false}};
@@ -167,7 +168,18 @@ TEST_CASE("columns beside a plane of symmetry meet each image once", "[sph][fast
     writes[std::size_t(g)].insert(g);
     columns.for_forward(g, [&](const Neighbour<3>& n) { writes[std::size_t(g)].insert(n.group); });
   }
+  const auto sums = [&](int g) {  // what is carried to the next row apart; those of images nobody reads
+    std::multiset<std::pair<int, bool>> of{{g, false}};
+    columns.for_forward(g, [&](const Neighbour<3>& n) {
+      if (!columns.is_image(n.group)) of.insert({n.group, n.in_next_row});
+    });
+    return of;
+  };
   for (int a = 0; a < columns.groups(); ++a) {
+    REQUIRE(columns.colour(a) < columns.colours());
+    for (int b = 0; b < a; ++b)
+      if (columns.colour(a) == columns.colour(b))
+        for (const auto& one : sums(a)) REQUIRE(sums(b).count(one) == 0);
     for (int row = 0; row < nx; ++row) {
       const int dx = std::abs(a / ny - row);
       const bool beside = a % ny == 0 && std::min(dx, periodic ? nx - dx : dx) <= 1;
