@@ -71,7 +71,11 @@ void FlowResidual::begin_step() { boundary_.weights = time_.weights; }
 
 void FlowResidual::keep_past(FlowTile& tile) const {
   if (!time_.unsteady()) return;
-  if (!boundary_.wind.steady()) store_driving(tile);
+  if (!tile.geometry->moving()) {
+    PhysicalTime step = time_;
+    step.begin_step();
+    store_driving(tile, step);
+  }
   if (time_.order > 1) std::swap(tile.before, tile.before_that);
   const TileGeometry& g = *tile.geometry;
   const std::size_t component = std::size_t(tile.cells.component);
@@ -89,15 +93,13 @@ void FlowResidual::keep_past(FlowTile& tile) const {
   });
 }
 
-/// What makes the undisturbed wind change acts on all air alike: its acceleration by the weights of the step that begins, and
-/// what the rate of change of its kinetic energy has beyond the power of that acceleration. A uniform wind stays uniform to
-/// round-off. Forces on the inflow plane come in addition.
-void FlowResidual::store_driving(FlowTile& tile) const {
-  PhysicalTime step = time_;
-  const double before = step.before;
-  step.begin_step();
+/// What makes the undisturbed wind change acts on all air alike: its acceleration by the weights of the step, and what the rate
+/// of change of its kinetic energy has beyond the power of that acceleration. A uniform wind stays uniform to round-off. Forces
+/// on the inflow plane come in addition.
+void FlowResidual::store_driving(FlowTile& tile, const PhysicalTime& step) const {
+  if (boundary_.wind.steady()) return;
   const double shares[3] = {step.weights.now / step.dt, step.weights.old / step.dt, step.weights.older / step.dt},
-               ago[3] = {0.0, step.dt, step.dt + before};
+               ago[3] = {0.0, step.dt, step.older};
   const TileGeometry& g = *tile.geometry;
   const std::ptrdiff_t c = tile.inner.component;
   if (tile.driving.size() == 0) tile.driving = AlignedArray<double>(tile.inner.size(4));

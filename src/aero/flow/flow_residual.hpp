@@ -30,6 +30,8 @@ class FlowResidual {
   void set_wind(UndisturbedWind wind) { boundary_.wind = std::move(wind); }
   /// The state as it is becomes the past. @pre the grid has not moved yet.
   void keep_past(FlowTile& tile) const;
+  /// How the undisturbed wind drives the air in the step that has begun, where a moving grid now is.
+  void drive_moved(FlowTile& tile) const { store_driving(tile, time_); }
 
   void fill_ghosts(FlowTile& tile, double* state) const { fill_boundaries(tile, state, boundary_); }
   void fill_gradient_ghosts(FlowTile& tile, const double* state) const;
@@ -50,7 +52,7 @@ class FlowResidual {
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 
  private:
-  void store_driving(FlowTile& tile) const;
+  void store_driving(FlowTile& tile, const PhysicalTime& step) const;
   void add_driving(const FlowTile& tile, const double* state, double* residual) const;
   void add_turning(const FlowTile& tile, const double* state, double* residual) const;
   void add_time_derivative(const FlowTile& tile, const double* state, double* residual) const;

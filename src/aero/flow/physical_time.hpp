@@ -11,6 +11,7 @@ namespace spindrift::aero {
 struct PhysicalTime {
   int order = 0;                  ///< 0 steady, 1 BDF1, 2 BDF2
   double dt = 0.0, before = 0.0;  ///< length of this step, and of the one before it [s]
+  double older = 0.0;             ///< from the level before the last one to the end of the step that is being made [s]
   std::int64_t steps = 0;         ///< since the start
   TimeWeights weights{};          ///< of the step that is being made
 
@@ -19,6 +20,7 @@ struct PhysicalTime {
   void begin_step() {
     const bool second = order > 1 && steps > 0;
     weights = second ? bdf2(dt / before) : bdf1;
+    older = dt + before;
     before = dt;
     ++steps;
   }

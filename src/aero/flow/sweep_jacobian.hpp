@@ -1,8 +1,8 @@
 // The matrix of the mean flow: first-order linearisation of a tile's residual plus what the (pseudo-)time step adds, as blocks
 // for ILU and for products with stored operators. Convection by Roe's dissipation of the mean states held fixed, viscosity in
-// thin-layer form, walls and open boundaries folded into the diagonal (docs/theory/air.md, "Linearisation"). Rows and columns are
-// scaled (Scales) so that floats hold them. Called by the tasks of src/aero/flow; tested in tests/src/aero/flow/solver_test.cpp.
-// SPDX-License-Identifier: Apache-2.0
+// thin-layer form, walls and open boundaries folded into the diagonal (docs/theory/air.md, "Linear systems"). Rows and columns
+// are scaled (Scales) so that floats hold them. Called by the tasks of src/aero/flow; tested in
+// tests/src/aero/flow/solver_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/gas/preconditioner.hpp"

@@ -196,14 +196,18 @@ void begin_march(MarchRecording& r) {
   });
 }
 
-/// Nodes, metrics and face speeds of the new time level; what follows waits through the states.
+/// Nodes, metrics and face speeds of the new time level, and how the wind drives the air there; what follows waits through the
+/// states.
 void move_grid(MarchRecording& r) {
   r.each(
       "aero/move",
       [&](std::size_t n) {
         return Uses{reads(r.flow.decision), reads(r.flow.past[n]), updates(r.flow.state[n])};
       },
-      [&r](std::size_t n) { r.motion.move(r.tile(n)); });
+      [&r](std::size_t n) {
+        r.motion.move(r.tile(n));
+        r.residual.drive_moved(r.tile(n));
+      });
   record_centres(r.graph, r.arrays, r.motion, r.recorded, {r.flow.state, r.flow.state_ghosts}, {reads(r.flow.decision)});
 }
 
