@@ -35,7 +35,7 @@ class Gmres {
     double rest = dots[j + 1];
     for (int r = 0; r <= j; ++r) h_[r][j] = raw_[r] = dots[r], rest -= dots[r] * dots[r];
     breakdown_ = !(rest > 1e-6 * dots[j + 1]);  // float vectors carry seven digits: what is left would be noise
-    const double length = breakdown_ ? 0.0 : std::sqrt(rest);
+    const double length = std::sqrt(std::max(rest, 0.0));
     scale_ = breakdown_ ? 0.0 : 1.0 / length;
     for (int r = 0; r < j; ++r) {
       const double a = h_[r][j], b = h_[r + 1][j];

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 using namespace spindrift::linear;
@@ -84,4 +85,12 @@ TEST_CASE("a direction that brings nothing new ends a cycle", "[linear][fast]") 
   std::vector<double> y(1);
   method.solve(y);
   CHECK(y[0] == Approx(0.5));
+}
+
+TEST_CASE("a cycle that ends for want of digits does not count as solved", "[linear][fast]") {
+  Gmres method;
+  method.start(1.0);
+  method.append(std::vector<double>{2.0, 4.0 + 4e-7});  // all but a few ten thousandths of w along v_0
+  CHECK(method.breakdown());
+  CHECK(method.residual_norm() == Approx(std::sqrt(1e-7)).epsilon(1e-3));
 }
