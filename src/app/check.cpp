@@ -261,7 +261,7 @@ void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearis
     if (std::isinf(limit.step_s))
       fmt::print("  {:<16}any\n", name(integrator));
     else if (limit.step_s == 0.0)
-      fmt::print("  {:<16}none: {} is undamped\n", name(integrator), limit.mode);
+      fmt::print("  {:<16}none: {} is not damped\n", name(integrator), limit.mode);
     else
       fmt::print("  {:<16}{:.4g} s, set by {}\n", name(integrator), limit.step_s, limit.mode);
   }
@@ -547,12 +547,8 @@ void print_omissions(const CheckArguments& arguments) {
   }
 }
 
-}  // namespace
-
-int check(const CheckArguments& arguments, const runtime::World& world) {
-  const double begin_s = processor_seconds();
-  scene::Document document = load_scene(arguments.scene, arguments.overrides);
-  coupling::Scenario scenario = coupling::read_scenario(document);
+int check_as_read(const CheckArguments& arguments, const runtime::World& world, scene::Document& document,
+                  coupling::Scenario scenario, double begin_s) {
   coupling::require_memory(scenario, coupling::machine_memory() * world.size);
   if (scenario.has_flow()) require_expected_columns(document, scenario.output, columns_of_air_alone());
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
@@ -644,6 +640,15 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
     print_cost(parts, floating.scenario().time.end_s, world.size, {base.bytes, base.core_seconds + steps_s});
   print_omissions(arguments);
   return done;
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments, const runtime::World& world) {
+  const double begin_s = processor_seconds();
+  scene::Document document = load_scene(arguments.scene, arguments.overrides);
+  coupling::Scenario scenario = coupling::read_scenario(document);
+  return by_lines(document, [&] { return check_as_read(arguments, world, document, std::move(scenario), begin_s); });
 }
 
 }  // namespace spindrift::app

@@ -34,8 +34,7 @@ using WantedGrid = std::variant<Wanted, aero::FlowOptions>;
 
 /// A scene may be as short as [rotor] turbine and [aero.grid]; what else it has must be right, but need not be all that a run
 /// needs.
-WantedGrid read(const SceneArguments& arguments) {
-  scene::Document document = load_scene(arguments.scene, arguments.overrides);
+WantedGrid read(scene::Document& document) {
   coupling::add_rotor_defaults(document);
   const aero::AeroOptions air = document.read(aero::aero_section());
   const aero::RotorOptions rotor = document.read(aero::rotor_section());
@@ -71,16 +70,12 @@ void write(const aero::MultiBlockGrid& grid, const std::filesystem::path& file) 
   fmt::print("written: {} and {}\n", file.string(), map.string());
 }
 
-}  // namespace
-
-int grid(const GridArguments& arguments, const runtime::World& world) {
-  const WantedGrid asked = read(arguments);
-  if (world.rank != 0) return done;
+void make_and_write(const WantedGrid& asked, const GridArguments& arguments) {
   if (const auto* flow = std::get_if<aero::FlowOptions>(&asked)) {
     const aero::MultiBlockGrid grid = flow_grid(*flow);  // sound, or refused
     fmt::print("{}\n{}", describe_flow_grid(*flow), describe(grid_quality(grid), grid));
     for (const std::string& file : arguments.files) write(grid, file);
-    return done;
+    return;
   }
   const Wanted& wanted = std::get<Wanted>(asked);
   const aero::MultiBlockGrid grid = make_rotor_grid(wanted.turbine, wanted.spec);
@@ -91,6 +86,16 @@ int grid(const GridArguments& arguments, const runtime::World& world) {
       {.scaled_jacobian = wanted.options.least_scaled_jacobian, .non_orthogonality = wanted.options.most_off_orthogonal_deg});
   require_sound(grid, arguments.scene);
   for (const std::string& file : arguments.files) write(grid, file);
+}
+
+}  // namespace
+
+int grid(const GridArguments& arguments, const runtime::World& world) {
+  scene::Document document = load_scene(arguments.scene, arguments.overrides);
+  by_lines(document, [&] {
+    const WantedGrid asked = read(document);
+    if (world.rank == 0) make_and_write(asked, arguments);
+  });
   return done;
 }
 

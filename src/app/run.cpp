@@ -253,8 +253,10 @@ std::vector<io::ModeLine> lines_of(const std::vector<bodies::Mode>& modes) {
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
   scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  coupling::require_memory(scenario, coupling::machine_memory());
-  return made_ready(std::move(scenario), document);
+  return by_lines(document, [&] {
+    coupling::require_memory(scenario, coupling::machine_memory());
+    return made_ready(std::move(scenario), document);
+  });
 }
 
 SceneRun run_scene(const RunArguments& arguments, const runtime::World& started, const scene::Source& overrider) {
@@ -270,7 +272,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     read.emplace();
     scenario = coupling::read_scenario(*document);
     runtime::Watchdog::set_limit(scenario->runtime.watchdog_s);  // to the end of the program, whatever ranks do
-    coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
+    by_lines(*document, [&] {
+      coupling::require_memory(*scenario, coupling::machine_memory() * started.size);  // of as many machines as there may be
+    });
     echo = document->echo();
     return coupling::Started{
         arguments.fluid, echo,
@@ -278,13 +282,13 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
                     arguments.out, arguments.until_s, arguments.restart, arguments.overwrite, arguments.trace,
                     arguments.record_graph, arguments.windows)};
   });
-  const runtime::Parts parts = coupling::place(*scenario, started, arguments.fluid);
+  const runtime::Parts parts = by_lines(*document, [&] { return coupling::place(*scenario, started, arguments.fluid); });
   const runtime::World& world = parts.world();
   io::start_log(world.rank, arguments.quiet);
   // Every check has passed before the run directory is made.
   std::optional<ReadyScene> system;
   if (!scenario->has_flow())
-    system = made_ready(*scenario, *document);
+    system = by_lines(*document, [&] { return made_ready(*scenario, *document); });
   else
     require_expected_columns(*document, scenario->output, columns_of_air_alone());
   require_writable(arguments, world.comm);
@@ -344,8 +348,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   };
   settings.ended = [&](const io::Summary& summary) { complete(begun = summary); };
   io::Summary summary = summary_of(directory, world, begun, [&] {
-    return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
-                  : run::run_flow(*scenario, directory, parts, settings, stop);
+    return by_lines(*document, [&] {
+      return system ? run::run(*system->floating, system->start, directory, parts, settings, stop)
+                    : run::run_flow(*scenario, directory, parts, settings, stop);
+    });
   });
   if (world.rank == 0)
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);

@@ -13,6 +13,14 @@ namespace spindrift::app {
 scene::Document load_scene(const std::string& path, const std::vector<std::string>& overrides,
                            const scene::Source& overrider = scene::command_line());
 
+/// What `make` makes of a scene; what it refuses by a key of the scene is refused by file and line.
+template <class Make>
+auto by_lines(const scene::Document& document, const Make& make) {
+  try {
+    return make();
+  } catch (const scene::SceneError& late) { throw document.located(late); }
+}
+
 /// Throws where `path` is a scene and no study.
 void require_study(const std::string& path);
 

@@ -13,7 +13,7 @@
 namespace spindrift::scene {
 
 Document::Document(Value root, std::vector<Source> sources, std::vector<Problem> problems)
-    : root_(std::move(root)), findings_{std::move(sources), std::move(problems), {}} {}
+    : root_(std::move(root)), findings_{std::move(sources), std::move(problems), {}}, given_sources_(findings_.sources.size()) {}
 
 bool Document::announce(const SectionBase& section) {
   if (std::find(known_.begin(), known_.end(), &section) == known_.end()) known_.push_back(&section);
@@ -108,6 +108,18 @@ void Document::problem(std::string_view key, std::string message, std::string fo
   const bool shown = found && !at->is_table() && !at->is_list_of_tables();
   findings_.add(at, std::string(key), shown ? at->written() : "", std::move(message));
   findings_.problems.back().follows_from = std::move(follows_from);
+}
+
+SceneError Document::located(const SceneError& late) const {
+  std::vector<Problem> problems = late.problems();
+  for (Problem& p : problems) {
+    if (p.line != 0 || p.key.empty() || (!p.source.empty() && p.source != source())) continue;
+    p.source = source();
+    const Value* at = locate(p.key).first;
+    if (!at || std::size_t(at->where.source) >= given_sources_) continue;  // the program's own defaults have no place
+    p.source = findings_.sources[std::size_t(at->where.source)].name, p.line = at->where.line;
+  }
+  return SceneError(std::move(problems));
 }
 
 void Findings::add(const Value* at, std::string key, std::string value, std::string message) {

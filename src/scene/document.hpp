@@ -90,6 +90,9 @@ class Document {
   /// A problem found by a rule between sections, shown at the key's line, or that of the nearest table around it. Dropped where
   /// that key, or something in it or around it, has a problem already, or the key that it follows from has one in the end.
   void problem(std::string_view key, std::string message, std::string follows_from = {});
+  /// Problems of keys of this scene that were found after it was read and name no line: with that of the key, or of the nearest
+  /// table around it. All others as they are.
+  SceneError located(const SceneError& late) const;
   /// Throws SceneError with every problem so far, sections that nobody read among them. Call after the last read.
   void finish();
 
@@ -111,6 +114,7 @@ class Document {
 
   Value root_;
   Findings findings_;
+  std::size_t given_sources_;              ///< of findings_.sources; behind them stands what the program adds
   std::vector<const SectionBase*> known_;  ///< sections read, in order
   std::string echo_;                       ///< of the sections read, in order
 };

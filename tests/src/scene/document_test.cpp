@@ -167,6 +167,22 @@ TEST_CASE("what follows from a key is told where that key is well, whatever the 
   CHECK_THAT(told("-1"), !Catch::Contains("is of no use") && Catch::Contains("mass_kg = -1"));
 }
 
+TEST_CASE("problems found after the reading get the line of their key", "[scene][fast]") {
+  const auto at = [](Document& doc, const std::string& source, int line, const std::string& key) {
+    return std::string(doc.located(SceneError({{source, line, key, "7", "is too much"}})).what());
+  };
+  Document doc = parse("[time]\nend_s = 2.0\n[bodies.a]\nmass_kg = 1.0\n", "s.toml", "/", {"time.window_s=0.5"});
+  doc.add_defaults({"time.most_steps=3"});
+  CHECK(at(doc, "s.toml", 0, "bodies.a.mass_kg") == "s.toml:4: bodies.a.mass_kg = 7: is too much");
+  CHECK(at(doc, "", 0, "time.end_s") == "s.toml:2: time.end_s = 7: is too much");
+  CHECK(at(doc, "s.toml", 0, "time.window_s") == "command line: time.window_s = 7: is too much");
+  CHECK(at(doc, "s.toml", 0, "bodies.a.inertia") == "s.toml:3: bodies.a.inertia = 7: is too much");  // the table around it
+  CHECK(at(doc, "s.toml", 0, "time.most_steps") == "s.toml: time.most_steps = 7: is too much");      // the program's own
+  CHECK(at(doc, "s.toml", 0, "sea.depth_m") == "s.toml: sea.depth_m = 7: is too much");
+  CHECK(at(doc, "other.toml", 0, "time.end_s") == "other.toml: time.end_s = 7: is too much");
+  CHECK(at(doc, "s.toml", 9, "time.end_s") == "s.toml:9: time.end_s = 7: is too much");
+}
+
 TEST_CASE("a section that the scene has no use for is told so, and not echoed", "[scene][fast]") {
   Document silent = parse(good, "s.toml", "/");
   silent.read(example::time_section());
