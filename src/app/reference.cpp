@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <ranges>
+#include <string_view>
 
 #include "src/aero/control_options.hpp"
 #include "src/aero/turbine.hpp"
@@ -61,7 +63,24 @@ std::string lower(std::string text) {
 /// "rotor.blade_1" of "rotor.blade_1.".
 std::string stem(const io::ColumnSection& section) { return section.prefix.substr(0, section.prefix.size() - 1); }
 
-/// Sections whose names begin with the topic; where there are none, the columns that have it in their name or in what is said.
+/// "BODY" of what a scene names itself.
+bool is_placeholder(std::string_view part) {
+  return std::ranges::none_of(part, [](char c) { return std::islower(static_cast<unsigned char>(c)); });
+}
+
+/// Is `name` a column of a scene that is `pattern` in general? "platform.x_m" of "BODY.x_m"
+bool is_one_of(std::string_view pattern, std::string_view name) {
+  const auto parts = [](std::string_view text) {
+    std::vector<std::string_view> found;
+    for (const auto part : text | std::views::split('.')) found.emplace_back(part.begin(), part.end());
+    return found;
+  };
+  const std::vector<std::string_view> general = parts(pattern), given = parts(name);
+  return std::ranges::equal(general, given, [](std::string_view g, std::string_view n) { return g == n || is_placeholder(g); });
+}
+
+/// Sections whose names begin with the topic; where there are none, the columns that have it in their name or in what is said, or
+/// that it is one of.
 std::vector<io::ColumnSection> sections_of(const std::string& topic) {
   const std::vector<io::ColumnSection> all = run::all_columns();
   const std::string word = lower(topic.ends_with('.') ? topic.substr(0, topic.size() - 1) : topic);
@@ -73,6 +92,11 @@ std::vector<io::ColumnSection> sections_of(const std::string& topic) {
   for (io::ColumnSection section : all) {
     if (!has(section.when))
       std::erase_if(section.columns, [&](const io::Column& c) { return !has(section.prefix + c.name) && !has(c.meaning); });
+    if (!section.columns.empty()) found.push_back(section);
+  }
+  if (!found.empty()) return found;
+  for (io::ColumnSection section : all) {
+    std::erase_if(section.columns, [&](const io::Column& c) { return !is_one_of(section.prefix + c.name, topic); });
     if (!section.columns.empty()) found.push_back(section);
   }
   if (!found.empty()) return found;

@@ -157,6 +157,17 @@ std::vector<std::string> speaking_of(std::span<const SectionBase* const> section
   return found;
 }
 
+/// "bodies.NAME.mass_kg" of "bodies.platform.mass_kg"; all else as it is.
+std::string with_placeholder(std::span<const SectionBase* const> sections, std::string_view topic) {
+  const std::size_t first = topic.find('.'), second = topic.find('.', first + 1);
+  if (first == std::string_view::npos) return std::string(topic);
+  const bool named = std::ranges::any_of(
+      sections, [&](const SectionBase* section) { return section->is_named() && section->name() == topic.substr(0, first); });
+  return !named ? std::string(topic)
+                : fmt::format("{}.NAME{}", topic.substr(0, first),
+                              second == std::string_view::npos ? std::string_view() : topic.substr(second));
+}
+
 }  // namespace
 
 std::string reference_text(std::span<const SectionBase* const> sections, std::string_view topic) {
@@ -181,7 +192,18 @@ std::string reference_text(std::span<const SectionBase* const> sections, std::st
     }
   }
   if (!out.empty()) return out;
-  const std::string near = nearest(topic, known);
+  const std::string general = with_placeholder(sections, topic);
+  std::string near = nearest(topic, known);
+  if (general != topic) {
+    for (const Entry& entry : entries(sections))
+      for (const Parameter& p : entry.section->parameters()) {
+        if (entry.heading + "." + p.key == general) return reference_text(sections, general);
+        if (entry.heading == general && nearest(topic.substr(topic.rfind('.') + 1), {p.key}) == p.key) near = p.key;
+      }
+    const bool heads = std::ranges::any_of(entries(sections), [&](const Entry& e) { return e.heading == general; });
+    if (near.empty() && heads) return reference_text(sections, general);
+    if (near.empty()) near = nearest(general, known);
+  }
   std::string message = "no such section or key" + (near.empty() ? std::string() : "; did you mean '" + near + "'?");
   if (const std::vector<std::string> keys = speaking_of(sections, topic); near.empty() && !keys.empty())
     message += "; keys that speak of it: " + joined(keys, ", ");

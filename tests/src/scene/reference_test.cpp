@@ -33,6 +33,10 @@ TEST_CASE("the terminal's reference answers for a section, a key, or a key witho
         "[time]\n  window_s  (number; s; > 0 and <= 1000; default 0.1)\n      Length of a coupling window.\n");
   CHECK(reference_text(sections, "window_s") == reference_text(sections, "time.window_s"));
   CHECK(reference_text(sections, "bodies.mass_kg") == reference_text(sections, "bodies.NAME.mass_kg"));
+  CHECK(reference_text(sections, "bodies.platform.mass_kg") == reference_text(sections, "bodies.NAME.mass_kg"));
+  CHECK(reference_text(sections, "bodies.platform") == reference_text(sections, "bodies.NAME"));
+  CHECK_THROWS_WITH(reference_text(sections, "bodies.platform.mas_kg"), Contains("did you mean 'bodies.NAME.mass_kg'?"));
+  CHECK_THROWS_WITH(reference_text(sections, "bodies.mas_kg"), Contains("did you mean 'mass_kg'?"));
   CHECK_THAT(reference_text(sections, "bodies"),
              Contains("[bodies.NAME]  A rigid body.\n") && Contains("[[bodies.NAME.cylinders]]") && !Contains("[time]"));
   CHECK(reference_text(sections, "[time]") == reference_text(sections, "time"));
