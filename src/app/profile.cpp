@@ -208,7 +208,7 @@ Profile measured(const ProfileArguments& arguments, const Mode& mode, const runt
   const std::int64_t begin_ns = runtime::Clock::now_ns();
   Phases seen;
   Profile p = windows_of(arguments, mode, world, folder, seen);
-  MPI_Barrier(world.comm);  // rank 0 reads the records of all
+  runtime::summed(world.comm, {1.0});  // all have written their records, which rank 0 reads
   seen.wall_s["sums and records"] += runtime::Clock::seconds_since(seen.left_ns);
   p.run_s = runtime::Clock::seconds_since(begin_ns);
   std::vector<double> mine{p.run_s * p.threads};
