@@ -1,7 +1,7 @@
 // Limits on the explicit step, after Monaghan (1992), section 10, and Monaghan & Kos (1999), J. Waterw. Port C. 125, eq. 10:
 //   acoustic dt <= C h / (c0 + |v|max),  force dt <= C sqrt(h / |a|max),  viscous dt <= 0.125 h^2 / nu,
 // and of a light floating body, whose particles carry the water's added mass: dt <= 2 sqrt(w n) d / c0 for n layers of relative
-// weight w.
+// weight w, of which src/sea takes half.
 // Called by src/sea/sph; tested in tests/kernels/sph/step_test.cpp.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -20,7 +20,7 @@ struct Crest {
 };
 
 /// Changes amplitudes and phases so that elevation and its rate are crest.height and 0 there. With eta the random elevation, its
-/// autocorrelation r, and the moments of the spectrum, eta + r (A - eta_0) - r' / lambda^2 eta'_0 is what is put in, harmonic by
+/// autocorrelation r, and the moments of the spectrum, eta + r (A - eta_0) + r' / lambda^2 eta'_0 is what is put in, harmonic by
 /// harmonic.
 inline void raise_crest(std::span<Component> components, const Crest& crest) {
   double energy = 0.0, rates = 0.0, level = 0.0, rate = 0.0;

@@ -1,6 +1,6 @@
 // Morison's equation for a moving cylinder element in moving water, and for its flat ends (Morison et al. 1950; relative form
 // with Froude-Krylov kept whole: Chakrabarti 1987, ch. 6; DNV-RP-C205, 6.2). The term in the body's own acceleration is not here
-// but in the mass matrix of the body. Equations: docs/theory/sea_engineering.md, section 2. Called by src/sea; tested in
+// but in the mass matrix of the body. Equations: docs/theory/sea_engineering.md, section 3. Called by src/sea; tested in
 // tests/kernels/waves/wave_kernels_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -14,12 +14,12 @@ Table<ReferenceMotion> motion_columns() {
   using Of = const ReferenceMotion&;
   static constexpr double degree = radians_per_degree;
   static constexpr ColumnOf<ReferenceMotion> table[] = {
-      {"x_m", "m", "surge of the reference point since the start", [](Of m) { return m.displacement[0]; }},
+      {"x_m", "m", "surge of the reference point from where the scene describes it", [](Of m) { return m.displacement[0]; }},
       {"y_m", "m", "sway of the reference point", [](Of m) { return m.displacement[1]; }},
       {"z_m", "m", "heave of the reference point", [](Of m) { return m.displacement[2]; }},
-      {"roll_deg", "deg", "roll since the start", [](Of m) { return 1.0 / degree * m.angles[0]; }},
-      {"pitch_deg", "deg", "pitch since the start", [](Of m) { return 1.0 / degree * m.angles[1]; }},
-      {"yaw_deg", "deg", "yaw since the start", [](Of m) { return 1.0 / degree * m.angles[2]; }},
+      {"roll_deg", "deg", "roll from the described position", [](Of m) { return 1.0 / degree * m.angles[0]; }},
+      {"pitch_deg", "deg", "pitch from the described position", [](Of m) { return 1.0 / degree * m.angles[1]; }},
+      {"yaw_deg", "deg", "yaw from the described position", [](Of m) { return 1.0 / degree * m.angles[2]; }},
       {"vx_m_s", "m/s", "velocity of the reference point along x", [](Of m) { return m.velocity[0]; }},
       {"vy_m_s", "m/s", "velocity of the reference point along y", [](Of m) { return m.velocity[1]; }},
       {"vz_m_s", "m/s", "velocity of the reference point along z", [](Of m) { return m.velocity[2]; }},

@@ -144,9 +144,11 @@ void doubt_acceleration(scene::Doubts& doubts, FloatingSystem& floating, const S
     std::size_t worst = 0;
     for (std::size_t s = 0; s < now.by_source.size(); ++s)
       if (now.by_source[s][b].force.norm() > now.by_source[worst][b].force.norm()) worst = s;
-    doubts.push_back({"bodies." + all[b].name,
-                      fmt::format("starts with an acceleration of {:.4g} m/s2, mostly by {} ({:.3g} N)", a,
-                                  floating.multibody().loads()[worst].name, now.by_source[worst][b].force.norm()),
+    const double largest = now.by_source[worst][b].force.norm();
+    const std::string by = largest < 0.5 * a * all[b].mass
+                               ? "its joints, from other bodies"
+                               : fmt::format("{} ({:.3g} N)", floating.multibody().loads()[worst].name, largest);
+    doubts.push_back({"bodies." + all[b].name, fmt::format("starts with an acceleration of {:.4g} m/s2, mostly by {}", a, by),
                       fmt::format("up to {:.3g} m/s2, a free fall", bound),
                       "look at the units of mass, sizes and stiffness, or start in equilibrium"});
   }

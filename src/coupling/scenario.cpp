@@ -578,6 +578,7 @@ Scenario read_scenario(scene::Document& document) {
 }
 
 std::string describe_bodies(const Scenario& s) {
+  if (s.bodies.empty()) return "none";
   std::string text = fmt::format("{} ({})", s.bodies.size(), fmt::join(names(s.bodies), ", "));
   if (!s.joints.empty()) text += fmt::format(", joints: {}", fmt::join(names(s.joints), ", "));
   if (!s.beams.empty()) text += fmt::format(", beams: {}", fmt::join(names(s.beams), ", "));

@@ -129,7 +129,7 @@ void require_stable_particles(FloatingSystem& floating, const Stability& stabili
   const double bodies = margin * stability.limit.step_s;
   if (bodies == 0.0)
     refuse(floating, "time.integrator", std::string(name(floating.multibody().integrator())),
-           fmt::format("is unstable at any step for {}, which is undamped; use rk4 or symplectic", stability.limit.mode));
+           fmt::format("is unstable at any step for {}, which is not damped; use rk4 or symplectic", stability.limit.mode));
   floating.body_step_limit_s = bodies;
   const std::optional<double>& step = floating.scenario().time.step_s;
   if (!step) return;
@@ -159,9 +159,10 @@ void require_stable(FloatingSystem& floating, const Stability& stability) {
   if (step <= limit.step_s) return;
   const std::string integrator(name(floating.multibody().integrator()));
   if (limit.step_s == 0.0)
-    refuse(floating, "time.integrator", integrator,
-           fmt::format("is unstable at any step for {}, which is undamped (eigenvalue {:.3g}{:+.3g}i 1/s); use rk4 or symplectic",
-                       limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
+    refuse(
+        floating, "time.integrator", integrator,
+        fmt::format("is unstable at any step for {}, which is not damped (eigenvalue {:.3g}{:+.3g}i 1/s); use rk4 or symplectic",
+                    limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));
   refuse(floating, "time.step_s", fmt::format("{}", step),
          fmt::format("is above the limit of {:.4g} s that {} has for {} (eigenvalue {:.3g}{:+.3g}i 1/s)", limit.step_s,
                      integrator, limit.mode, limit.eigenvalue.real(), limit.eigenvalue.imag()));

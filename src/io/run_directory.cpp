@@ -16,10 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Everything a run writes, or wrote once; --overwrite removes these and leaves a user's own files alone.
-constexpr std::string_view files_of_a_run[] = {"scene.toml",  "history.csv",  "summary.json", "log.txt", "trace.json.gz",
-                                               "trace.json",  "report.html",  "checkpoints",  "fields",  "spanwise.csv",
-                                               "history.out", "history.outb", "settling"};
+/// Everything a run writes, or wrote once, and what is drawn of it; --overwrite removes these and leaves a user's own files
+/// alone.
+constexpr std::string_view files_of_a_run[] = {"scene.toml",  "history.csv",  "summary.json", "log.txt",     "trace.json.gz",
+                                               "trace.json",  "report.html",  "checkpoints",  "fields",      "spanwise.csv",
+                                               "history.out", "history.outb", "settling",     "picture.png", "film.mp4"};
 
 /// Throws where a folder that exists cannot be read: what it holds is not nothing.
 bool holds(const fs::path& folder, std::string_view extension) {

@@ -161,12 +161,14 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("sea.tank.bed_m", "must end at the height it begins with: sea.tank.sides_x is periodic");
 
   if (p.modified_walls() && !t.bed_m.empty())
-    wrong("sea.particles.walls", "must be \"dynamic\" above slopes (sea.tank.bed_m): stairs have no ghost nodes");
+    wrong("sea.particles.walls",
+          "must not be modified ones above slopes (sea.tank.bed_m): stairs have no ghost nodes; the default takes any shape");
 
   for (std::size_t n = 0; n < t.meshes.size(); ++n) {
     const std::string key = fmt::format("sea.tank.meshes[{}]", n);
     if (p.modified_walls())
-      wrong("sea.particles.walls", "must not be modified ones with " + key + ": stairs have no ghost nodes");
+      wrong("sea.particles.walls",
+            "must not be modified ones with " + key + ": stairs have no ghost nodes; the default takes any shape");
     if (!t.meshes[n].surface) continue;
     const Eigen::AlignedBox3d& box = t.meshes[n].surface->box();
     const double y_low = planar ? 0.0 : t.y_m[0], y_high = planar ? 0.0 : t.y_m[1];
@@ -208,7 +210,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     if (w.hinge_m && !(*w.hinge_m >= bed && *w.hinge_m < 0.0))
       wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
     if (o.initial && w.start_s < -o.initial->settle_s)
-      wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", -o.initial->settle_s));
+      wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", 0.0 - o.initial->settle_s));
     if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
   }
 

@@ -300,6 +300,16 @@ class Program(Folder):
         self.assertEqual(done.returncode, 2)
         self.assertIn("platform", done.stdout + done.stderr)
 
+    def test_what_is_refused_after_the_reading_is_told_by_file_and_line(self):
+        scene = self.path / "long_steps.toml"
+        scene.write_text(f'base = "{CASE1}"\n\n[time]\nwindow_s = 5.0\nstep_s = 5.0\n')
+        for command in (["check", scene], ["run", scene, "--out", self.out]):
+            done = spindrift(*command)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{scene}:5: time.step_s = 5: is above the limit of", done.stderr)
+        done = spindrift("check", CASE1, settings=["time.window_s=5.0", "time.step_s=5.0"])
+        self.assertIn("command line: time.step_s = 5: is above the limit of", done.stderr)
+
     def test_results_are_not_overwritten_unless_asked(self):
         self.assertEqual(self.run_case("--until", 1).returncode, 0)
         refused = self.run_case("--until", 1)
@@ -391,6 +401,8 @@ class Program(Folder):
         self.assertEqual({name.rpartition(".")[0] for name in columns("rotor")}, {"rotor", "rotor.blade_1"})
         self.assertEqual(columns("rotor.thrust_N"), ["rotor.thrust_N"])
         self.assertLessEqual(set(columns("wavemaker")), set(columns("paddle")))  # tanks with a paddle
+        self.assertEqual(columns("platform.pitch_deg"), ["BODY.pitch_deg"])  # as a scene has it
+        self.assertEqual(columns("platform.sea.fx_N"), ["BODY.SOURCE.fx_N"])
         unknown = spindrift("reference", "--columns", "quantum")
         self.assertEqual((unknown.returncode, unknown.stdout), (2, ""))
         self.assertIn("columns begin with BODY, BODY.SOURCE, JOINT, ", unknown.stderr)
@@ -418,6 +430,11 @@ class Checks(unittest.TestCase):
                 if "sph" in said or "particles" in said or "blade_resolved" in said:
                     for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                         self.assertIn(words, said, scene)
+
+    def test_what_throws_a_body_off_is_named(self):
+        said = checked("leble_barakos/case1_engineering.toml", ("moorings.line_downwind.anchor_m=[162.635,0.0,-500.0]",))[1]
+        self.assertRegex(said, r"bodies\.platform: starts with an acceleration of \S+ m/s2, mostly by moorings")
+        self.assertRegex(said, r"bodies\.rotor: starts with an acceleration of \S+ m/s2, mostly by its joints, from other bodies")
 
     def test_check_says_what_the_rotor_does_at_the_start(self):
         said = checked("leble_barakos/case3_engineering.toml")[1]

@@ -1,5 +1,5 @@
 // Solids made of particles: which particles belong to a body, moving them with it, and the force of the water on it.
-// Forces come from pairs with water only: contact of bodies with walls or with each other is not modelled here.
+// Forces come from pairs with water only: contact of bodies with walls and with each other is in contact.hpp.
 // Loads are summed group by group, then over groups in their order: the same bits for any number of threads and ranks.
 // Called by sea_sph.cpp and body_tasks.cpp; tested in tests/src/sea/sph/solids_test.cpp.
 // SPDX-License-Identifier: Apache-2.0

@@ -42,8 +42,10 @@ TEST_CASE("a run directory with something in it is not touched unless told to", 
   io::write_atomically(checkpoints / "checkpoint_1.h5", "");
   CHECK(make(io::Existing::resume));
   CHECK(fs::exists(scene));
+  io::write_atomically(path / "picture.png", "of that run");
   CHECK_FALSE(make(io::Existing::overwrite));
   CHECK_FALSE(fs::exists(scene));
+  CHECK_FALSE(fs::exists(path / "picture.png"));
   CHECK_FALSE(fs::exists(checkpoints));
   CHECK(io::read_file(path / "notes.txt") == "mine");  // not the run's
 }
