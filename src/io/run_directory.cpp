@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/io/run_directory.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <ctime>
@@ -9,6 +10,7 @@
 #include "src/io/checkpoint.hpp"
 #include "src/io/collective.hpp"
 #include "src/io/machine_failure.hpp"
+#include "src/io/summary.hpp"
 
 namespace spindrift::io {
 
@@ -38,19 +40,44 @@ bool is_used(const fs::path& path) {
   return false;
 }
 
-/// Rows of a run that came to no checkpoint.
-constexpr std::string_view rows_before = "history_before_restart.csv";
+/// Rows of the n-th run that came to no checkpoint.
+fs::path rows_before(const fs::path& path, int n) {
+  return path / (n == 1 ? "history_before_restart.csv" : fmt::format("history_before_restart_{}.csv", n));
+}
 
 void remove_run(const fs::path& path, std::string_view but = {}) {
   for (const auto name : files_of_a_run)
     if (name != but) fs::remove_all(path / name);
 }
 
+/// One of these is in every folder that a run began to write in.
+bool is_of_a_run(const fs::path& path) {
+  for (const auto name : {"log.txt", "summary.json", "history.csv", "checkpoints", "settling"})
+    if (fs::exists(path / name)) return true;
+  return false;
+}
+
+/// Before files of a run are removed: that they are, and not the user's own of such names.
+void require_a_run(const fs::path& path) {
+  if (is_of_a_run(path)) return;
+  for (const auto name : files_of_a_run)
+    if (fs::exists(path / name))
+      throw InputError("run directory " + path.string() + ": its " + std::string(name) +
+                       " would be replaced, but no run left it there (there is no log.txt); choose another with --out");
+}
+
 /// A folder that --restart finds without a checkpoint: a run that never came that far left nothing worth keeping but its rows.
 void begin_anew(const fs::path& path) {
   const fs::path checkpoints = path / "checkpoints";
   if (holds(checkpoints, ".damaged")) throw only_damaged(checkpoints);
-  const fs::path history = path / "history.csv", kept = path / rows_before;
+  require_a_run(path);
+  if (exit_code_in(path / "summary.json") == 0)
+    throw InputError("run directory " + path.string() +
+                     ": its run came to its end, but the checkpoints are gone; choose another with --out, or say --overwrite to "
+                     "begin anew and replace its results");
+  int n = 1;
+  while (fs::exists(rows_before(path, n))) ++n;
+  const fs::path history = path / "history.csv", kept = rows_before(path, n);
   spdlog::warn("--restart: no run in {} came as far as a checkpoint: THIS RUN BEGINS ANEW, at the scene's start{}", path.string(),
                fs::exists(history) ? "; the rows that are there are kept as " + kept.filename().string() : std::string());
   if (fs::exists(history)) fs::rename(history, kept);
@@ -72,7 +99,11 @@ bool prepare(const fs::path& path, Existing existing) {
   refuse_early(path, existing);  // another run may have been here and gone since
   const bool resumes = existing == Existing::resume && holds(path / "checkpoints", ".h5");
   if (existing == Existing::resume && !resumes) begin_anew(path);
-  if (existing == Existing::overwrite) remove_run(path), fs::remove(path / rows_before);
+  if (existing == Existing::overwrite) {
+    require_a_run(path);
+    remove_run(path);
+    for (int n = 1; fs::remove(rows_before(path, n)); ++n) {}
+  }
   // Find out now, not after an hour, that nothing can be written here.
   const fs::path probe = path / ".writable";
   write_atomically(probe, "");

@@ -98,19 +98,22 @@ std::string text_of(const std::filesystem::path& path) {
   } catch (const MachineFailure&) { return ""; }
 }
 
-bool has_exit_code(const std::string& text) {
+std::optional<int> exit_code_of(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
-  return json.is_object() && json.contains("exit_code") && json["exit_code"].is_number();
+  if (!json.is_object() || !json.contains("exit_code") || !json["exit_code"].is_number()) return std::nullopt;
+  return json["exit_code"].get<int>();
 }
 
 }  // namespace
+
+std::optional<int> exit_code_in(const std::filesystem::path& path) { return exit_code_of(text_of(path)); }
 
 SummaryOfOthers::SummaryOfOthers(std::filesystem::path path) : path_(std::move(path)), before_(text_of(path_)) {}
 
 void SummaryOfOthers::write_instead(const Summary& summary, int rank) const try {
   std::this_thread::sleep_for(std::chrono::seconds(1));
   const std::string now = text_of(path_);
-  if (now.empty() || (now != before_ && has_exit_code(now))) return;
+  if (now.empty() || (now != before_ && exit_code_of(now))) return;
   std::filesystem::path own = path_;  // whoever comes last counts, and none writes into another's file
   own += ".rank_" + std::to_string(rank);
   write_summary(own, summary);

@@ -81,6 +81,9 @@ class SummaryOfOthers {
   std::string before_;
 };
 
+/// How the run of a summary.json ended; nothing where it has not, or there is none.
+std::optional<int> exit_code_in(const std::filesystem::path& path);
+
 /// Rank 0. With build_info(), the host's name and processor; numbers that are not finite become null.
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 

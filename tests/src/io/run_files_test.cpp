@@ -67,9 +67,36 @@ TEST_CASE("a restart where no run came as far as a checkpoint begins anew and ke
   CHECK_FALSE(fs::exists(killed / "history.csv"));
   CHECK_FALSE(fs::exists(killed / "checkpoints"));
   CHECK(fs::exists(killed / "slurm-1.out"));
+  io::write_atomically(killed / "history.csv", "time_s\n1\n");  // killed once more
+  CHECK_FALSE(resumes(killed));
+  CHECK(io::read_file(killed / "history_before_restart.csv") == "time_s\n0\n");
+  CHECK(io::read_file(killed / "history_before_restart_2.csv") == "time_s\n1\n");
   fs::create_directories(killed / "checkpoints");
   io::write_atomically(killed / "checkpoints/checkpoint_1.h5.damaged", "bits");
   CHECK_THROWS_WITH(resumes(killed), Contains("damaged") && Contains("--overwrite"));
+}
+
+TEST_CASE("files that no run left, and results whose checkpoints are gone, are not removed", "[io][faults][fast]") {
+  const test::Scratch folder("run_directory");
+  const auto make = [&](const fs::path& path, io::Existing existing) { io::RunDirectory(MPI_COMM_SELF, path, existing); };
+  const fs::path mine = folder / "mine";
+  fs::create_directories(mine / "fields");
+  io::write_atomically(mine / "scene.toml", "mine");
+  for (const auto existing : {io::Existing::resume, io::Existing::overwrite})
+    CHECK_THROWS_WITH(make(mine, existing), Contains("scene.toml would be replaced, but no run left it there"));
+  CHECK(io::read_file(mine / "scene.toml") == "mine");
+  CHECK(fs::exists(mine / "fields"));
+
+  const fs::path done = folder / "done";
+  fs::create_directories(done);
+  io::Summary summary;
+  summary.exit_code = 0;
+  io::write_summary(done / "summary.json", summary);
+  io::write_atomically(done / "report.html", "results");
+  CHECK_THROWS_WITH(make(done, io::Existing::resume), Contains("came to its end") && Contains("--overwrite"));
+  CHECK(io::read_file(done / "report.html") == "results");
+  make(done, io::Existing::overwrite);
+  CHECK_FALSE(fs::exists(done / "report.html"));
 }
 
 TEST_CASE("a run directory that cannot be is refused in words", "[io][faults][fast]") {
