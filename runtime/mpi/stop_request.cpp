@@ -39,7 +39,8 @@ std::int64_t now_ns() {  // may be called by a signal handler
 extern "C" void note_signal(int signal) {
   const std::int64_t now = now_ns();
   int none = 0;
-  if (cause.compare_exchange_strong(none, signal) || none >= wall_limit || caught_ns == 0) {
+  cause.compare_exchange_strong(none, signal);
+  if (caught_ns == 0) {  // the first signal, whatever asked before it
     caught_ns = now;
     return;
   }

@@ -120,6 +120,17 @@ TEST_CASE("a rank of which all have heard that it is to stop gives up without a 
                   StopAsked);
 }
 
+TEST_CASE("a second signal ends the program also where the limit on wall time asked before", "[runtime][faults][fast]") {
+  CHECK(ended_by([] {
+          StopRequest stop(3600.0);
+          stop.keep_margin(3601.0);
+          if (!StopRequest::asked()) std::_Exit(1);
+          ::raise(SIGTERM);
+          std::this_thread::sleep_for(1100ms);
+          ::raise(SIGTERM);
+        }) == SIGTERM);
+}
+
 TEST_CASE("a second signal ends the program at once", "[runtime][faults][fast]") {
   CHECK(ended_by([] {
           const StopRequest stop;
