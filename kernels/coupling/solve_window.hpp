@@ -28,6 +28,7 @@ concept RepeatableWindow = requires(W window, const Vector& x) {
 struct IterationLimits {
   double relative = 1e-6;    ///< of the piece's first residual
   double absolute = 0.0;     ///< in units of x
+  double of_output = 0.0;    ///< of the size of what the parts return
   int max_evaluations = 50;  ///< of one attempt, probes included
   double diverged = 1e4;     ///< times the first residual, or the first x where that is more: given up
   double fallback_relaxation = 0.05;
@@ -79,7 +80,7 @@ Bound attempt(Window& window, S& scheme, Vector& x, const IterationLimits& limit
     if (!std::isfinite(log.residual)) return Bound::not_finite;
     if (k == 0) log.first_residual = log.residual;
     if (!probe) x = trial;
-    if (log.residual <= limits.absolute) return Bound::absolute;
+    if (log.residual <= std::max(limits.absolute, limits.of_output * output.norm())) return Bound::absolute;
     if (log.residual <= limits.relative * log.first_residual) return Bound::relative;
     if (log.residual > limits.diverged * std::max(log.first_residual, scale)) return Bound::divergence;
     trial = scheme.next(trial, r);

@@ -285,6 +285,7 @@ WindowReport CoupledWindow::advance_strong(bodies::BodiesState& state) {
   Pieces pieces(*this, state);
   IterationLimits limits;
   limits.relative = 0.0;
+  limits.of_output = options_.tolerance;  // loads may begin from nothing
   limits.absolute = options_.tolerance * std::max(pieces.guess().head(RotorInterface::load_rows).norm(), loads_.last().norm());
   limits.max_evaluations = options_.max_evaluations, limits.max_cuts = options_.max_cuts;
   limits.fallback_relaxation = 0.1 * options_.relaxation;

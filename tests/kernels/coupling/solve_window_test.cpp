@@ -58,6 +58,9 @@ TEST_CASE("the log names the tolerance that was met", "[coupling][fast]") {
   CHECK(relative.bound == Bound::relative);
   CHECK(relative.residual <= 1e-3 * relative.first_residual);
   window.again();
+  const WindowLog of_output = solve_window(window, scheme, {.relative = 0.0, .of_output = 1e-3});
+  CHECK(of_output.bound == Bound::absolute);
+  window.again();
   const WindowLog absolute = solve_window(window, scheme, {.relative = 0.0, .absolute = 1e-3});
   CHECK(absolute.bound == Bound::absolute);
   CHECK(absolute.residual <= 1e-3);
