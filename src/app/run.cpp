@@ -101,7 +101,8 @@ void require_writable(const RunArguments& arguments, MPI_Comm world) {
   if (file.empty()) return;
   io::on_root(world, [&] {
     errno = 0;
-    if (!std::ofstream(file)) throw io::InputError(fmt::format("--record-graph {}: {}", file, std::strerror(errno)));
+    if (!std::ofstream(file, std::ios::app))
+      throw io::InputError(fmt::format("--record-graph {}: {}", file, std::strerror(errno)));
   });
 }
 

@@ -65,9 +65,8 @@ const scene::Section<StartOptions>& start_section() {
                 "Start from the static equilibrium under the mean loads (wind without gusts, current, lines, still water; the "
                 "rotor's over a turn), instead of from the positions of the scene.")
           .path("file", &StartOptions::file,
-                "Checkpoint (checkpoints/*.h5 of a run) of the same floating system: bodies, water and air go on from its state "
-                "at its "
-                "time. Windows, steps, "
+                "State of another run of the same floating system: a checkpoint, or another file of that run's folder (its "
+                "scene.toml), which stands for its newest one. Bodies, water and air go on from it at its time. Windows, steps, "
                 "scheme and the march of the air may be others; its time must be a whole number of windows.")
           .number("ramp_s", &StartOptions::ramp_s, "s",
                   "Rotor loads grow smoothly from nothing over this time; 0 applies them at once.", scene::between(0.0, 1e6))

@@ -45,6 +45,19 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
 
+/// What the history of a coupling scheme follows from.
+std::vector<double> form_of(const coupling::CouplingOptions& o) {
+  return {double(o.scheme),        double(o.composition), double(o.predictor_order),
+          double(o.reuse_windows), double(o.samples),     double(o.interpolation)};
+}
+/// Of the history in a checkpoint. An older program saved its scheme alone, and took the rest to be as it is `now`.
+std::vector<double> form_of(const io::CheckpointReader& file, const coupling::CouplingOptions& now) {
+  if (file.has("coupling/form")) return file.read<double>("coupling/form");
+  std::vector<double> form = form_of(now);
+  form[0] = double(file.integer("coupling/scheme"));
+  return form;
+}
+
 /// Null where no library controls the rotor.
 aero::BladedLibrary* library_of(const coupling::FloatingSystem& floating) {
   const aero::TurbineControl* control = floating.rotor() ? floating.rotor()->control() : nullptr;
@@ -204,7 +217,7 @@ std::int64_t SystemSimulation::begin(const io::RunDirectory& directory) {
 
 /// start.file: the state that another run of the same floating system left, whatever its windows and its march.
 std::int64_t SystemSimulation::take_over() {
-  const io::CheckpointReader file(parts_.world().comm, floating_.scenario().start.file);
+  const io::CheckpointReader file = coupling::open_saved(parts_.world().comm, floating_.scenario().start.file);
   const auto refuse = [&](const std::string& why) {
     throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why));
   };
@@ -229,7 +242,7 @@ std::int64_t SystemSimulation::take_over() {
   restore_fluids(file);
   // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
   const bool same = file.has("coupling/history") &&
-                    file.integer("coupling/scheme") == std::int64_t(floating_.scenario().coupling.scheme) &&
+                    form_of(file, floating_.scenario().coupling) == form_of(floating_.scenario().coupling) &&
                     file.number("window_s") == timeline.window_s();
   if (!same || !window_.restore(file.read<double>("coupling/history"))) window_.begin(state_);
   spdlog::info("from t = {:g} s of {}", t, file.path().string());
@@ -237,12 +250,20 @@ std::int64_t SystemSimulation::take_over() {
 }
 
 void SystemSimulation::restore(const io::CheckpointReader& file) {
-  state_.unpack(file.read<double>("bodies/state"));
+  const std::vector<double> bodies = file.read<double>("bodies/state");
+  if (bodies.size() != state_.packed_size() || file.integer("bodies/works") != std::int64_t(state_.work.size()))
+    throw io::InputError(file.path().string() +
+                         ": its bodies, joints, loads and their memories are not those of this scene, which cannot "
+                         "go on from it");
+  state_.unpack(bodies);
   steps_ = file.integer("steps");
-  const std::vector<double> history =
-      file.has("coupling/history") ? file.read<double>("coupling/history") : std::vector<double>();
-  if (!window_.restore(history))
+  const bool learnt = file.has("coupling/history");
+  if (learnt && form_of(file, floating_.scenario().coupling) != form_of(floating_.scenario().coupling)) {
+    spdlog::warn("the coupling scheme begins anew: its options are not those of {}", file.path().string());
+    window_.begin(state_);
+  } else if (!window_.restore(learnt ? file.read<double>("coupling/history") : std::vector<double>())) {
     throw io::InputError(file.path().string() + ": its coupling history is that of another coupling.scheme");
+  }
   restore_library(floating_, file);
   restore_fluids(file);
   write_log_lines();
@@ -263,7 +284,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   copy.write<double>("bodies/state", packed);
   copy.set("bodies/works", std::int64_t(state_.work.size()));
   if (const std::vector<double> history = window_.history(); !history.empty()) {
-    copy.set("coupling/scheme", std::int64_t(floating_.scenario().coupling.scheme));
+    copy.write<double>("coupling/form", form_of(floating_.scenario().coupling));
     copy.write<double>("coupling/history", history);
   }
   save_library(floating_, copy);

@@ -10,7 +10,7 @@ import time
 import unittest
 import unittest.mock
 
-from running import Folder, PROGRAM, ROOT, spindrift
+from running import Folder, PROGRAM, ROOT, rows, spindrift
 
 CASE3 = ROOT / "inputs/leble_barakos/case3_engineering.toml"
 
@@ -189,6 +189,38 @@ class Summaries(Runs):
         self.assertEqual(self.summary(), before)
         self.run_case("--restart", "--until", 0.5)
         self.assertIn("nothing was left to do", self.summary()["exit_reason"])
+
+    def test_a_state_of_other_models_is_refused_though_the_change_is_allowed(self):
+        for n, (before, after) in enumerate((("oye", "none"), ("none", "oye"))):
+            out = self.path / f"inflow_{n}"
+            self.run_case("--until", 0.5, "--set", f"aero.dynamic_inflow={before}", out=out)
+            said = self.run_case("--restart", "--set", f"aero.dynamic_inflow={after}", "--allow-change", "aero.dynamic_inflow", out=out, code=2)
+            self.assertIn("its bodies, joints, loads and their memories are not those of this scene", said)
+
+    def test_a_scheme_with_other_options_begins_anew(self):
+        strong = ["--set", "coupling.scheme=iqn_ils", "--set", "time.end_s=1.0", "--set", "start.equilibrium=false"]
+        self.run_case("--until", 0.5, *strong)
+        for n, option in enumerate(("reuse_windows=2", "samples=2", "composition=parallel", "predictor_order=0")):
+            key = "coupling." + option.split("=")[0]
+            on = self.path / f"on_{n}"
+            shutil.copytree(self.out, on)
+            said = self.run_case("--restart", *strong, "--set", "coupling." + option, "--allow-change", key, out=on)
+            self.assertIn("the coupling scheme begins anew", said)
+            self.run_case(*strong, "--set", "coupling." + option, "--set", f"start.file={self.out}/scene.toml", out=self.path / f"from_{n}")
+            self.assertEqual([row["rotor.thrust_N"] for row in rows(on / "history.csv")][6:], [row["rotor.thrust_N"] for row in rows(self.path / f"from_{n}/history.csv")][1:], option)
+
+    def test_loads_that_begin_from_nothing_are_agreed_on(self):
+        for scheme in ("relaxation", "iqn_ils"):
+            out = self.path / scheme
+            self.run_case("--until", 0.2, "--set", f"coupling.scheme={scheme}", "--set", "start.ramp_s=10.0", out=out)
+            self.assertLessEqual(rows(out / "history.csv")[1]["coupling.evaluations"], 25)
+
+    def test_a_recording_is_not_emptied_by_a_run_that_is_refused(self):
+        self.run_case("--until", 0.2)
+        recording = self.path / "windows.jsonl"
+        recording.write_text("of another run\n")
+        self.run_case("--record-graph", recording, code=2)
+        self.assertEqual(recording.read_text(), "of another run\n")
 
     def test_a_change_that_is_allowed_is_one_of_the_scene(self):
         self.run_case("--until", 1.0)
