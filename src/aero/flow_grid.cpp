@@ -85,8 +85,10 @@ MultiBlockGrid make_box(const GenerateOptions& g) {
   return cartesian_box(box);
 }
 
-MultiBlockGrid section_grid(const GenerateOptions& g, double width) {
+MultiBlockGrid section_grid(const GenerateOptions& g, double width, bool inviscid) {
+  constexpr double first_cell_inviscid = 1e-3;  // chords; finer ones march for hundreds of steps and show nothing more
   AerofoilOptions o{.n = g.refinement, .far = g.far_m, .width = width};
+  if (inviscid) o.first_cell = first_cell_inviscid;
   if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
   constexpr int points = 200;  // on either side: .01 mm of a chord of 1 m beside the formula
   if (g.coordinates.empty() && !g.naca) return naca0012(o);
@@ -98,13 +100,13 @@ MultiBlockGrid section_grid(const GenerateOptions& g, double width) {
   }
 }
 
-MultiBlockGrid generated(const GenerateOptions& g, double width) {
+MultiBlockGrid generated(const GenerateOptions& g, double width, bool inviscid) {
   if (g.kind == "box") return make_box(g);
   if (g.kind == "stretched_box")
     return cartesian_box(box_nodes(g), {.patches = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}});
   if (g.kind == "flat_plate") return flat_plate(g.refinement, width);
-  if (g.kind == "naca0012" || g.kind == "aerofoil") return section_grid(g, width);
-  if (g.kind == "wing") return extruded(section_grid(g, width), g.span_cells, g.span_m, false);
+  if (g.kind == "naca0012" || g.kind == "aerofoil") return section_grid(g, width, inviscid);
+  if (g.kind == "wing") return extruded(section_grid(g, width, inviscid), g.span_cells, g.span_m, false);
   if (g.kind == "bump") {
     BumpOptions o{.n = g.refinement, .width = width};
     if (g.first_cell_m > 0.0) o.first_cell = g.first_cell_m;
@@ -172,7 +174,7 @@ const scene::Section<GenerateOptions>& generate_section() {
           .number("first_cell_m", &GenerateOptions::first_cell_m, "m",
                   "Height of the first cell at the wall, of refinement 2 or 64 cells around and in proportion for others; 0: the "
                   "generator's own "
-                  "(aerofoil 3.6e-6, bump 1e-5, cylinder: radii in geometric progression).",
+                  "(aerofoil 3.6e-6, without friction 1e-3; bump 1e-5; cylinder: radii in geometric progression).",
                   between(0.0, 1e3))
           .only_if("kind", {"cylinder", "naca0012", "aerofoil", "wing", "bump"})
           .number("span_m", &GenerateOptions::span_m, "m", "Span of the wing.", above(0.0).up_to(1e4))
@@ -241,7 +243,7 @@ std::optional<Corners> box_corners(const FlowOptions& o) {
 MultiBlockGrid flow_grid(const FlowOptions& o) {
   MultiBlockGrid grid;
   if (o.generate) {
-    grid = generated(*o.generate, o.width_m);
+    grid = generated(*o.generate, o.width_m, o.viscous == "none");
   } else if (is_cgns(o.grid)) {
     grid = read_cgns(o.grid, o.width_m);
   } else {

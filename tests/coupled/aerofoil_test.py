@@ -58,6 +58,14 @@ class Fast(Runs):
         self.assertEqual(code, 0, self.words)
         self.assertAlmostEqual(last["flow.lift_coefficient"], 1.456, delta=0.003)  # our own converged value
 
+    def test_sections_without_friction_settle_with_default_settings(self):
+        slip = ["aero.flow.viscous=none", "without=['aero.flow.turbulence','aero.flow.viscosity_Pa_s']", "aero.flow.boundaries[0].condition=slip",
+                "aero.flow.generate.kind=aerofoil", "aero.flow.generate.naca='2412'"]
+        for refinement in (1, 2):
+            code, _, last = self.aerofoil(3, refinement=refinement, steps=100, settings=slip)
+            self.assertEqual(code, 0, self.words)
+            self.assertAlmostEqual(last["flow.lift_coefficient"], 0.628, delta=0.004)  # a thin one has 0.61
+
     def test_a_march_that_takes_all_its_steps_ends_with_3_names_the_place_and_goes_on(self):
         code, summary, last = self.aerofoil(10, steps=20)
         self.assertEqual(code, 3, self.words)
