@@ -271,9 +271,11 @@ void check_controller_file(scene::Document& doc, const ControlOptions& control, 
     if (control.tuning == Tuning::floating && !c.floating_gains)
       doc.problem("control.tuning", fmt::format("is \"floating\", but {} has no [controller.floating_gains]", control.file));
     if (!c.torque_gain_N_m_s2 && !(operation && operation->torque_gain()))
-      doc.problem("control.file", fmt::format("{} gives no torque_gain_N_m_s2, and no rotor.operation with power_W says which "
-                                              "tip-speed ratio to hold",
-                                              control.file));
+      doc.problem("control.file", fmt::format("{} gives no torque_gain_N_m_s2, and {}", control.file,
+                                              operation && !operation->power.empty()
+                                                  ? "rotor.operation has no row between its least and its greatest speed, "
+                                                    "which would say which tip-speed ratio to hold"
+                                                  : "no rotor.operation with power_W says which tip-speed ratio to hold"));
   } catch (const scene::SceneError& e) { doc.problem("control.file", e.what()); }
 }
 

@@ -204,11 +204,13 @@ void print_equilibrium(FloatingSystem& floating, const bodies::Equilibrium& equi
   if (!equilibrium.unstable.empty()) fmt::print("  unstable: {}, which leaves this rest by itself\n", equilibrium.unstable);
   if (!floating.moorings()) return;
   const std::vector<moorings::LineTension> tensions = floating.moorings()->tensions(state.motions);
-  for (std::size_t line = 0; line < lines; ++line)
-    fmt::print("  {:<{}}  tension {:.4g} kN{}\n", floating.moorings()->name(line), width, 1e-3 * tensions[line].fairlead,
-               tensions[line].fairlead < 0.0 ? fmt::format(": it pushes, as no rope does (moorings.{}.tension_only = false)",
-                                                           floating.moorings()->name(line))
-                                             : "");
+  for (std::size_t line = 0; line < lines; ++line) {
+    const double tension = std::abs(tensions[line].fairlead) < 0.5 ? 0.0 : tensions[line].fairlead;  // but for round-off
+    fmt::print("  {:<{}}  tension {:.4g} kN{}\n", floating.moorings()->name(line), width, 1e-3 * tension,
+               tension < 0.0 ? fmt::format(": it pushes, as no rope does (moorings.{}.tension_only = false)",
+                                           floating.moorings()->name(line))
+                             : "");
+  }
   const std::vector<LineEnd> ends = floating.moorings()->junction_motions(state.motions);
   for (std::size_t j = 0; j < junctions; ++j) {
     const Eigen::Vector3d& at = ends[j].position;
@@ -280,11 +282,11 @@ std::string hertz(double f) { return f > 0.0 ? fmt::format("{:.4f}", f) : "-"; }
 void print_frequencies(const std::string& rotors, const coupling::Campbell& c) {
   fmt::print("\nFrequencies [Hz]: {}, waves and platform (wind and most probable waves by sea state after Lee et al. 1985)\n",
              rotors);
-  fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P", "3P",
-             100.0 * coupling::close);
+  fmt::print("  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}   within {:.0f} %\n", "", "wind m/s", "height m", "waves", "1P",
+             fmt::format("{}P", c.blades), 100.0 * coupling::close);
   for (const coupling::CampbellRow& row : c.rows) {
     fmt::print("  {:<14}{:>10.2f}{:>10.2f}{:>10}{:>10}{:>10}   ", row.name, row.wind_m_s, row.wave_height_m, hertz(row.wave),
-               hertz(row.once), hertz(row.thrice));
+               hertz(row.once), hertz(row.passing));
     for (std::size_t i = 0; i < row.together.size(); ++i) fmt::print("{}{}", i ? ", " : "", row.together[i]);
     fmt::print("\n");
   }
@@ -329,8 +331,8 @@ void print_coupling(FloatingSystem& floating, const coupling::Start& start, cons
       "\nCoupling of rotor and platform (window {} s): mass at the hub {:.3g} kg, thrust falls {:.4g} kN per m/s, fastest {:.3g} "
       "Hz\n",
       floating.timeline().window_s(), verdict.hub_mass_kg, 1e-3 * verdict.slope_N_s_m, verdict.fastest_Hz);
-  fmt::print("  1P {} Hz, 3P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n",
-             hertz(c.rows.back().once), hertz(c.rows.back().thrice), verdict.air_mass_kg, verdict.mass_ratio());
+  fmt::print("  1P {} Hz, {}P {} Hz; added mass of the blades' air {:.3g} kg, {:.2g} of the mass at the hub\n",
+             hertz(c.rows.back().once), c.blades, hertz(c.rows.back().passing), verdict.air_mass_kg, verdict.mass_ratio());
   bool will_do = false;
   for (const auto& scheme : verdict.schemes) {
     will_do = will_do || scheme.will_do;
@@ -418,6 +420,10 @@ const char* likely_condition(const std::string& patch, bool viscous) {
   return "far_field";
 }
 
+bool has_condition(const aero::FlowOptions& o, const std::string& patch) {
+  return std::ranges::any_of(o.boundaries, [&](const aero::PatchOptions& b) { return b.patch == patch; });
+}
+
 /// Size of a grid that stands, its patches with their conditions; a block to paste where some have none. False then.
 bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& grid, int ranks) {
   std::size_t cells = 0;
@@ -430,8 +436,7 @@ bool print_flow_grid(const aero::FlowOptions& o, const aero::MultiBlockGrid& gri
   std::vector<std::string> missing;
   fmt::print("\nPatches of the grid\n");
   for (const auto& [patch, count] : faces) {
-    const bool given = std::any_of(o.boundaries.begin(), o.boundaries.end(),
-                                   [&patch = patch](const aero::PatchOptions& b) { return b.patch == patch; });
+    const bool given = has_condition(o, patch);
     fmt::print("  {:<22}{} faces{}\n", patch, count, given ? "" : ", no condition yet");
     if (!given) missing.push_back(patch);
   }
@@ -567,7 +572,10 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
       aero::require_inflow_plane_inside(grid, scenario.wind, coupling::wind_site(scenario));
     }
     if (world.rank != 0) return done;
-    fmt::print("{}: valid\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene, "air", scenario.aero.flow->time,
+    const bool complete = std::ranges::all_of(
+        grid.boundaries, [&](const aero::Boundary& b) { return has_condition(*scenario.aero.flow, b.patch); });
+    fmt::print("{}: {}\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene,
+               complete ? "valid" : "not yet valid, patches lack a condition", "air", scenario.aero.flow->time,
                scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
                aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
@@ -589,8 +597,13 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   const coupling::Stability stability = coupling::stability(floating, start.state);
   if (has_resolved_rotor(floating.scenario())) try_grid(resolved_rotor_on(floating, start), world.size);
   const double start_s = processor_seconds() - begin_s;
+  scene::Doubts accepted;
+  std::optional<scene::SceneError> refusal;  // told below what helps to mend it
+  try {
+    accepted = require_limits(floating, start.state, stability);
+  } catch (const scene::SceneError& e) { refusal = e; }
   if (world.rank == 0) {
-    fmt::print("{}: valid\n", arguments.scene);
+    fmt::print("{}: {}\n", arguments.scene, refusal ? "refused, for the reason at the end" : "valid");
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
@@ -598,7 +611,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     if (floating.rotor() && !start.state.motions.empty()) print_rotors_at_start(floating, start);
     if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_all_blade_modes(floating);
   }
-  const scene::Doubts accepted = require_limits(floating, start.state, stability);
+  if (refusal) throw *refusal;
   if (world.rank != 0) return done;
   print_doubts(accepted, {});
   const BaseCost base = base_cost(start_s);  // before what a census or a grid leaves behind

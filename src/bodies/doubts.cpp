@@ -122,8 +122,8 @@ scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& aro
         doubts.push_back({at + ".reference_m", fmt::format("{:.4g} m over or under the centre of mass", over),
                           fmt::format("up to five times half the body's diagonal, {:.3g} m", 5.0 * size), "look at its unit: m"});
     if (const double turned = body.rotation.cwiseAbs().maxCoeff() / radians_per_degree; turned > 60.0)
-      doubts.push_back({at, fmt::format("starts turned by {:.4g} degrees", turned), "up to 60 degrees",
-                        "look at roll_deg, pitch_deg and yaw_deg"});
+      doubts.push_back(
+          {at, fmt::format("starts turned by {:.4g} degrees", turned), "up to 60 degrees", "look at rotation_deg, in degrees"});
     if (const double speed = body.velocity_m_s.norm(); speed > 30.0)
       doubts.push_back({at + ".velocity_m_s", fmt::format("{:.4g} m/s", speed), "up to 30 m/s", "look at its unit"});
     if (const double turn = body.omega_rad_s.norm(); size > 5.0 && turn * size > 60.0)

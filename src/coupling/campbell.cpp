@@ -31,7 +31,7 @@ double waves_at(double wind) {
 }
 
 void find_pairs(CampbellRow& row, const Campbell& c) {
-  const std::pair<const char*, double> rotor[2] = {{"1P", row.once}, {"3P", row.thrice}};
+  const std::pair<std::string, double> rotor[2] = {{"1P", row.once}, {fmt::format("{}P", c.blades), row.passing}};
   for (const auto& [name, f] : rotor)
     if (near(f, row.wave)) row.together.push_back(fmt::format("{} and waves", name));
   for (const auto& [mode, natural] : c.platform) {
@@ -43,8 +43,11 @@ void find_pairs(CampbellRow& row, const Campbell& c) {
 
 }  // namespace
 
+int blades_of(const Scenario& s) { return s.rotor.turbine.empty() ? 3 : aero::read_turbine(s.rotor.turbine).blades; }
+
 Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation, double speed) {
   Campbell c;
+  c.blades = blades_of(s);
   for (const bodies::Mode& mode : linearisation.modes)
     if (std::abs(mode.eigenvalue.imag()) > 1e-6 && mode.damping_ratio() < 1.0)
       c.platform.emplace_back(mode.name, 1.0 / mode.period_s());
@@ -57,7 +60,7 @@ Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation,
                       sea.height_m,
                       1.0 / sea.period_s,
                       once(sea.wind_m_s),
-                      3.0 * once(sea.wind_m_s),
+                      c.blades * once(sea.wind_m_s),
                       {}});
   const double own = std::abs(speed) / (2 * pi);
   c.rows.push_back({"this scene",
@@ -65,7 +68,7 @@ Campbell campbell(const Scenario& s, const bodies::Linearisation& linearisation,
                     s.has_waves() ? s.waves.height_m : 0.0,
                     s.has_waves() && s.waves.period_s > 0.0 ? 1.0 / s.waves.period_s : 0.0,
                     own,
-                    3.0 * own,
+                    c.blades * own,
                     {}});
   for (CampbellRow& row : c.rows) find_pairs(row, c);
   double before = 0.0;
@@ -182,7 +185,7 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
   }
   verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);
   for (const auto& [name, f] : campbell.platform) verdict.fastest_Hz = std::max(verdict.fastest_Hz, f);
-  verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().thrice});
+  verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().passing});
 
   const double window = floating.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;
   const double slope = verdict.slope_N_s_m;

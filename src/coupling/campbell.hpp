@@ -31,16 +31,19 @@ inline constexpr std::array<SeaState, 5> sea_states{{{2, 8.5 * m_s_per_knot, 0.3
 struct CampbellRow {
   std::string name;                   ///< "sea state 4", "this scene"
   double wind_m_s, wave_height_m;     ///< 0 where there is none
-  double wave, once, thrice;          ///< waves, 1P, 3P; 0 where there is none
+  double wave, once, passing;         ///< waves, 1P, blades passing (3P of three); 0 where there is none
   std::vector<std::string> together;  ///< pairs within `close` of each other: "1P and waves"
 };
 inline constexpr double close = 0.1;
 
 struct Campbell {
+  int blades = 3;
   std::vector<CampbellRow> rows;
   std::vector<std::pair<std::string, double>> platform;  ///< name and frequency [Hz] of the modes that oscillate
   std::vector<double> meets_waves_m_s;                   ///< winds at which 1P crosses the waves of the sea states
 };
+/// Of the rotor of one of by_rotor; 3 where no turbine file tells.
+int blades_of(const Scenario& scenario);
 /// `scenario`: one of by_rotor; `speed`: its rotor's own [rad/s].
 Campbell campbell(const Scenario& scenario, const bodies::Linearisation& linearisation, double speed);
 
@@ -53,7 +56,7 @@ struct LooseVerdict {
   double air_mass_kg = 0.0;  ///< that blades moving across their chords carry along, where a turbine file tells
   double slope_N_s_m = 0.0;  ///< thrust lost per m/s downwind
   double mass_ratio() const { return hub_mass_kg > 0.0 ? air_mass_kg / hub_mass_kg : 0.0; }
-  double fastest_Hz = 0.0;  ///< of waves, 3P and platform modes that oscillate
+  double fastest_Hz = 0.0;  ///< of waves, blades passing and platform modes that oscillate
   struct Scheme {
     std::string name;
     double window_limit_s;    ///< above it the floating system grows under the rotor's damping; infinite where there is none

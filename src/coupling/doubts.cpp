@@ -12,6 +12,7 @@
 #include "src/aero/operation.hpp"
 #include "src/bodies/doubts.hpp"
 #include "src/bodies/extent.hpp"
+#include "src/coupling/campbell.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
@@ -214,19 +215,19 @@ void doubt_tuning(scene::Doubts& doubts, const Scenario& s, const Stability& sta
 }
 
 /// A motion that a flexible beam takes part in, and that the blades meet once or three times a turn.
-void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, const aero::RotorLoads& rotor, const Start& start,
-                     const Stability& stability) {
+void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, const aero::RotorLoads& rotor, int blades,
+                     const Start& start, const Stability& stability) {
   if (floating.beams().empty()) return;
   const double turns = std::abs(rotor.state(0.0, start.state.motions).speed) / (2.0 * pi);
   constexpr double close = 0.05, light = 0.1, rigid_Hz = 0.1;  // floats swing slower than rigid_Hz
   for (const bodies::Mode& mode : stability.linearisation.modes) {
     const double f = std::abs(mode.eigenvalue) / (2.0 * pi);
     if (mode.eigenvalue.imag() < 1e-6 || f < rigid_Hz || mode.damping_ratio() > light) continue;
-    for (const auto& [name, forced] : {std::pair{"1P", turns}, std::pair{"3P", 3.0 * turns}})
-      if (forced > 0.0 && std::abs(f - forced) < close * forced)
+    for (const int times : {1, blades})
+      if (const double forced = times * turns; forced > 0.0 && std::abs(f - forced) < close * forced)
         doubts.push_back({"beams",
-                          fmt::format("{} at {:.4g} Hz, {} at {:.4g} Hz: {} meets it at every turn", mode.name, f, name, forced,
-                                      name == std::string("1P") ? "the rotor" : "each blade"),
+                          fmt::format("{} at {:.4g} Hz, {}P at {:.4g} Hz: {} meets it at every turn", mode.name, f, times, forced,
+                                      times == 1 ? "the rotor" : "each blade"),
                           fmt::format("more than {:.0f} % apart", 100.0 * close),
                           "look at the beam's properties and the rotor's speed, or expect resonance"});
   }
@@ -670,8 +671,8 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   doubt_rotors(all, floating,
                [&](scene::Doubts& found, const Scenario& s, const RotorSource&) { doubt_tuning(found, s, stability); });
   doubt_displaced_equilibrium(all, floating, start);
-  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario&, const RotorSource& rotor) {
-    doubt_resonance(found, floating, rotor.loads, start, stability);
+  doubt_rotors(all, floating, [&](scene::Doubts& found, const Scenario& s, const RotorSource& rotor) {
+    doubt_resonance(found, floating, rotor.loads, blades_of(s), start, stability);
     doubt_lean(found, floating, rotor.loads, start);
   });
   doubt_length(all, floating, stability);

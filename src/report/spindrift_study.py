@@ -287,8 +287,8 @@ def print_result(result, folder):
             e = rung["errors"][metric["name"]]
             text = "-" if e["error"] is None else f"{e['error']:.3g}"
             if e["error"] is not None and e["high"] > e["low"]:
-                text += f" ({e['low']:.2g} ... {e['high']:.2g})"
-            line += f"{'-' if e['value'] is None else format(e['value'], '.5g'):>16}" * valued[metric["name"]] + f"{text:>26}" * judged
+                text += f" ({e['low']:.1e}...{e['high']:.1e})" if len(f"{text} ({e['low']:.2g} ... {e['high']:.2g})") > 25 else f" ({e['low']:.2g} ... {e['high']:.2g})"
+            line += f"{'-' if e['value'] is None else format(e['value'], '.5g'):>16}" * valued[metric["name"]] + f" {text:>25}" * judged
         notes = ["reference"] if rung["is_reference"] else ["Pareto front"] if rung["on_front"] else []
         notes += [f"scatter of {n}" for n in dict.fromkeys(e["scatter_of"] for e in rung["errors"].values() if e["scatter_of"])]
         say(line + "  " + ", ".join(notes + ([rung["failed"]] if rung["failed"] else [])))

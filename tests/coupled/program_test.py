@@ -10,6 +10,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import tempfile
 import threading
 import time
 import unittest
@@ -430,6 +431,54 @@ class Checks(unittest.TestCase):
                 if "sph" in said or "particles" in said or "blade_resolved" in said:
                     for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                         self.assertIn(words, said, scene)
+
+    def test_a_pile_may_end_on_the_bed_whatever_the_round_off_of_its_place(self):
+        with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
+            scene = pathlib.Path(folder, "pile.toml")
+            scene.write_text("""
+[time]
+end_s = 10.0
+window_s = 0.1
+[environment]
+water_depth_m = 20.0
+[bodies.pile]
+mass_kg = 8.75e5
+inertia_kg_m2 = [1.6e9, 1.6e9, 2.7e7]
+centre_m = [0.0, 0.0, 46.4]
+[[bodies.pile.cylinders]]
+name = "p"
+start_m = [0.0, 0.0, -20.0]
+end_m = [0.0, 0.0, 10.0]
+diameter_m = 6.0
+[joints.foot]
+type = "fixed"
+bodies = ["earth", "pile"]
+point_m = [0.0, 0.0, -20.0]
+[sea]
+model = "morison"
+""")
+            for centre in (46.4, 30.7, 45.0):
+                done = spindrift("check", scene, settings=[f"bodies.pile.centre_m=[0.0,0.0,{centre}]"])
+                self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("below the sea bed", spindrift("check", scene, settings=["environment.water_depth_m=19.99"]).stderr)
+
+    def test_two_blades_pass_twice_a_turn(self):
+        with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
+            shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
+            turbine = pathlib.Path(folder, "dtu_10mw.toml")
+            turbine.write_text(turbine.read_text().replace("blades = 3", "blades = 2"))
+            said = spindrift("check", ROOT / "inputs/leble_barakos/case3_engineering.toml", settings=[f"rotor.turbine={turbine}", "aero.model=bem"]).stdout
+        self.assertRegex(said, r"waves +1P +2P")
+        self.assertNotIn("3P", said)
+        self.assertRegex(checked("leble_barakos/case3_engineering.toml")[1], r"waves +1P +3P")
+
+    def test_what_is_refused_for_its_limits_is_not_called_valid(self):
+        code, said, _ = checked("leble_barakos/case1_engineering.toml", ("time.window_s=5.0", "time.step_s=5.0"))
+        self.assertEqual(code, 2)
+        self.assertIn("refused, for the reason at the end", said.splitlines()[0])
+        code, said, _ = checked("tutorials/wing_section.toml", ("aero.flow.boundaries=[]",))
+        self.assertEqual(code, 2)
+        self.assertIn("not yet valid, patches lack a condition", said.splitlines()[0])
 
     def test_what_throws_a_body_off_is_named(self):
         said = checked("leble_barakos/case1_engineering.toml", ("moorings.line_downwind.anchor_m=[162.635,0.0,-500.0]",))[1]

@@ -28,7 +28,7 @@ TEST_CASE("1P of the DTU rotor and the sea states are the paper's, and meet near
   CHECK(c.rows[2].wave == Approx(1 / 8.8));
   CHECK(c.rows[2].once == Approx(0.131).epsilon(0.01));  // 7.5 U / R at 9.8 m/s
   CHECK(c.rows[3].once == Approx(0.160));                // 9.6 rpm from 12 m/s
-  CHECK(c.rows[3].thrice == Approx(0.480));
+  CHECK(c.rows[3].passing == Approx(0.480));
   CHECK(c.rows.back().once == Approx(8.8 / 60));
   CHECK(c.rows.back().wave == Approx(1 / 8.8));
   REQUIRE(c.meets_waves_m_s.size() == 1);
