@@ -56,6 +56,11 @@ std::int64_t substep_ticks(std::int64_t left, double limit) {
   return 2 * ((half + steps - 1) / steps);
 }
 
+void place_in_particles(FloatingSystem& floating, const bodies::BodiesState& state) {
+  const double t = double(state.tick) * floating.timeline().tick_s();
+  floating.particles()->place(t, t < 0.0 ? at_rest(state.motions) : state.motions);
+}
+
 void evaluate_particles(FloatingSystem& floating, const bodies::BodiesState& state) {
   const double t = double(state.tick) * floating.timeline().tick_s();
   floating.particles()->evaluate(t, t < 0.0 ? at_rest(state.motions) : state.motions);

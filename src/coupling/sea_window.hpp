@@ -20,7 +20,10 @@ namespace spindrift::coupling {
 using DriverFunction = std::function<sea::WindowDriver&(sea::WindowDriver& bodies)>;
 std::unique_ptr<BodySide> make_particle_side(FloatingSystem& floating, DriverFunction between = {});
 
-/// Evaluates the water's loads on the bodies as they stand.
+/// Puts the water's bodies where the state has them, as the window before left them.
+void place_in_particles(FloatingSystem& floating, const bodies::BodiesState& state);
+
+/// Likewise, and evaluates the water's loads on them.
 void evaluate_particles(FloatingSystem& floating, const bodies::BodiesState& state);
 
 /// Ticks of the next substep, even, so that what is left of a window is shared out evenly: `left` ticks (even), `limit` in ticks.

@@ -266,6 +266,7 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
   }
   restore_library(floating_, file);
   restore_fluids(file);
+  if (floating_.particles()) place_in_particles(floating_, state_);
   write_log_lines();
   start_clocks();
 }

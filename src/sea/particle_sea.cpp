@@ -119,8 +119,9 @@ class Sea final : public ParticleSea {
     for (const SensorOptions& sensor : plan.sensors) sea_.add_sensor(patch_of(plan, sensor, parameters.reach(), solids_));
   }
 
+  void place(double t, std::span<const Motion> bodies) override { solids_.place(t, bodies); }
   void evaluate(double t, std::span<const Motion> bodies) override {
-    solids_.place(t, bodies);
+    place(t, bodies);
     if (ranks_ > 1) sea_.repartition();
     sea_.sort();
     (void)sea_.step_limit();
@@ -149,7 +150,7 @@ class Sea final : public ParticleSea {
   void open(double t, std::span<const Motion> bodies, bool settling) override {
     sph::Damping& damping = sea_.state().damping;
     damping.everywhere = settling ? settle_damping_ : 0.0, damping.ahead = t - sea_.time(), t_ = t;
-    solids_.place(t, bodies);
+    place(t, bodies);
     sph::Plan& plan = sea_.state().plan;
     plan.left = 1.0;                               // until the driver calls a step the last
     plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone

@@ -133,7 +133,9 @@ class ParticleSea {
   static std::unique_ptr<ParticleSea> make(const ParticlePlan& plan, std::span<const Motion> start, const runtime::World& world);
   virtual ~ParticleSea() = default;
 
-  /// Puts bodies and paddle where they are at time t and evaluates that state, without a step.
+  /// Puts bodies and paddle where they are at time t: how far they go in tasks recorded after it counts from there.
+  virtual void place(double t_s, std::span<const Motion> bodies) = 0;
+  /// Places them and evaluates that state, without a step.
   virtual void evaluate(double t_s, std::span<const Motion> bodies) = 0;
 
   // A window as tasks: balance(), then for each run of the tasks open(), the tasks, close().
@@ -187,6 +189,7 @@ class ParticleSea {
   virtual ParticleState save() const = 0;
   /// Which values restore() wants on this rank.
   virtual ParticleState layout() const = 0;
+  /// The next call is place() or evaluate(): where bodies are is not in the state.
   virtual void restore(const ParticleState& state) = 0;
 
   struct Counts {
