@@ -191,23 +191,26 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
   for (Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping, &loads.potential}) w->point = motion.position;
   const Frame body(motion);
   waves::Wetted wet;
+  const waves::WaterPlane still{Eigen::Vector3d::UnitZ(), -motion.position.z()};
+  const auto carry = [&wet](const waves::Wetted& part) { wet.volume += part.volume, wet.first_moment += part.first_moment; };
   for (const Strip& strip : own.strips) {
     const Eigen::Vector3d start = body.rotation * strip.shape.start, end = body.rotation * strip.shape.end;
-    waves::WaterPlane surface{Eigen::Vector3d::UnitZ(), -motion.position.z()};
+    waves::WaterPlane surface = still;
     if (!waves_.still()) {
       const Eigen::Vector3d middle = 0.5 * (start + end);
       const waves::Surface s = waves_.surface(t, motion.position.x() + middle.x(), motion.position.y() + middle.y());
       surface = waves::tangent_plane(middle.x(), middle.y(), s.elevation - motion.position.z(), s.slope_x, s.slope_y);
     }
     if (!strips_load_) {
-      const waves::Wetted part = wetted_part(strip.shape, start, end, surface);
-      wet.volume += part.volume;
-      wet.first_moment += part.first_moment;
+      carry(wetted_part(strip.shape, start, end, surface));
       continue;
     }
     const WettedStrip part = wetted_strip(strip, start, end, surface);
-    wet.volume += part.wetted.volume;
-    wet.first_moment += part.wetted.first_moment;
+    // What the wave adds to buoyancy is in the exciting force of potential flow.
+    if (!own.potential)
+      carry(part.wetted);
+    else if (!own.potential->linear_hydrostatics())
+      carry(wetted_part(strip.shape, start, end, still));
     if (part.wetted.volume <= 0.0) continue;
     const Water water{waves_, current_, body, surface, t};
     if (own.potential)
@@ -218,7 +221,6 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
                   loads, mass);
   }
   if (own.potential) {
-    if (own.potential->linear_hydrostatics()) wet = {};
     loads.potential = own.potential->load(t, waves_.still() ? 0.0 : waves_.ramp(t), motion);
     if (mass) own.potential->add_added_mass(motion, *mass);
   }

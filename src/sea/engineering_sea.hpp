@@ -42,7 +42,7 @@ struct SeaBody {
 
 /// Loads on one body by physical part, each about its centre of mass, earth axes.
 struct SeaLoads {
-  Wrench buoyancy;   ///< rho g V, up to the local surface
+  Wrench buoyancy;   ///< rho g V, up to the local surface; beside [sea.potential] up to still water
   Wrench inertia;    ///< Froude-Krylov and wave part of the added mass
   Wrench drag;       ///< transverse and of the ends
   Wrench damping;    ///< [[sea.damping]], [[sea.matrices]]
