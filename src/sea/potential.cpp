@@ -119,6 +119,7 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
   if (waves.empty()) return;
   if (o.drift != "none" || !o.sum_frequency_file.empty()) second_order_.emplace(o, scale, waves);
   const WamitExcitation excitation = read_excitation(o.excitation_file, scale);
+  require_headings(o.excitation_file, excitation.heading, waves);
   for (const waves::Component& wave : waves) {
     const double along = std::cos(wave.direction) * o.point_m.x() + std::sin(wave.direction) * o.point_m.y();
     exciting_.push_back({wave.angular_frequency, wave.phase + wave.wave_number * along,

@@ -15,12 +15,17 @@ SecondOrderLoads::SecondOrderLoads(const PotentialOptions& o, const WamitScale& 
     amplitude_[Eigen::Index(n)] = std::polar(w.amplitude, -(w.phase + w.wave_number * along));
   }
   eta_.resize(amplitude_.size());
+  const auto covering = [&](auto file, const std::string& path) {
+    require_headings(path, file.heading, waves);
+    return file;
+  };
   if (o.drift == "full")
-    difference_ = transfers(read_quadratic(o.drift_file, scale, FrequencyPair::difference), true, waves);
+    difference_ = transfers(covering(read_quadratic(o.drift_file, scale, FrequencyPair::difference), o.drift_file), true, waves);
   else if (o.drift != "none")
-    take_mean(read_drift(o.drift_file, scale), o.drift == "newman", waves);
+    take_mean(covering(read_drift(o.drift_file, scale), o.drift_file), o.drift == "newman", waves);
   if (!o.sum_frequency_file.empty())
-    sum_ = transfers(read_quadratic(o.sum_frequency_file, scale, FrequencyPair::sum), false, waves);
+    sum_ =
+        transfers(covering(read_quadratic(o.sum_frequency_file, scale, FrequencyPair::sum), o.sum_frequency_file), false, waves);
 }
 
 void SecondOrderLoads::take_mean(const WamitDrift& drift, bool newman, const std::vector<waves::Component>& waves) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/sea/wamit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -8,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include <stdexcept>
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "src/scene/error.hpp"
@@ -143,12 +146,35 @@ std::pair<std::size_t, double> place(const std::vector<double>& nodes, double x)
   return {i, std::clamp((x - nodes[i]) / (nodes[i + 1] - nodes[i]), 0.0, 1.0)};
 }
 
-/// The heading among the file's, whole turns aside.
-double heading_near(const std::vector<double>& headings, double direction) {
-  double h = direction;
-  while (h > headings.back() + 1e-9) h -= 2.0 * pi;
-  while (h < headings.front() - 1e-9) h += 2.0 * pi;
-  return h;
+/// Of degrees in files and scenes [rad].
+constexpr double heading_round_off = 1e-6;
+
+/// Whether as many headings go on round the circle: the gap from the last to the first is no wider than those between others.
+bool closes(const std::vector<double>& headings) {
+  double widest = 0.0;
+  for (std::size_t n = 1; n < headings.size(); ++n) widest = std::max(widest, headings[n] - headings[n - 1]);
+  return headings.size() > 2 && headings.front() + 2.0 * pi - headings.back() <= widest + heading_round_off;
+}
+
+/// Headings on both sides of a direction and the share of the second, whole turns aside; none where the file's do not reach it.
+struct Between {
+  std::size_t low, high;
+  double share;
+};
+std::optional<Between> between(const std::vector<double>& headings, double direction) {
+  const double turn = 2.0 * pi, first = headings.front(), last = headings.back();
+  const double h = direction - turn * std::floor((direction - first + heading_round_off) / turn);
+  if (h <= last + heading_round_off) {
+    const auto [low, share] = place(headings, h);
+    return Between{low, std::min(low + 1, headings.size() - 1), share};
+  }
+  if (!closes(headings)) return std::nullopt;
+  return Between{headings.size() - 1, 0, std::min((h - last) / (first + turn - last), 1.0)};
+}
+
+Between must_be_between(const std::vector<double>& headings, double direction) {
+  if (const auto found = between(headings, direction)) return *found;
+  throw std::invalid_argument("sea: no headings of the file reach the direction of a wave");
 }
 
 /// One row of a file of second order.
@@ -197,6 +223,25 @@ WamitDrift read_drift(const std::string& path, const WamitScale& s) {
   std::array<std::vector<int>, 6> line;  // by place: where it stands
   for (const SecondOrderRow& r : rows) {
     const std::size_t at = index_of(drift.omega, r.first) * drift.heading.size() + index_of(drift.heading, r.heading);
+bool covers(const std::vector<double>& headings, double direction) { return between(headings, direction).has_value(); }
+
+void require_headings(const std::string& path, const std::vector<double>& headings, const std::vector<waves::Component>& waves) {
+  if (waves.empty()) return;
+  const bool spread = std::ranges::any_of(waves, [&](const auto& w) { return w.direction != waves.front().direction; });
+  for (const waves::Component& wave : waves) {
+    if (covers(headings, wave.direction)) continue;
+    const auto degrees = [](double angle) { return fmt::format("{:.6g}", angle / radians_per_degree); };
+    const std::string range = headings.size() == 1
+                                  ? "has the heading " + degrees(headings.front()) + " alone"
+                                  : "has headings from " + degrees(headings.front()) + " to " + degrees(headings.back());
+    const std::string at = degrees(wave.direction);
+    if (spread)
+      throw scene::SceneError(
+          {{"", 0, "waves.spreading_range_deg", "", "has waves towards " + at + " degrees, but " + path + " " + range}});
+    throw scene::SceneError({{"", 0, "waves.direction_deg", at, path + " " + range}});
+  }
+}
+
     std::vector<int>& lines = line[std::size_t(r.mode)];
     lines.resize(places);
     if (lines[at] > 0) refuse(path, r.line, "repeats line " + std::to_string(lines[at]));
@@ -214,8 +259,8 @@ WamitDrift read_drift(const std::string& path, const WamitScale& s) {
 Eigen::Matrix<double, 6, 1> WamitDrift::at(double w, double direction) const {
   if (w > omega.back()) return Eigen::Matrix<double, 6, 1>::Zero();
   const auto [f, fs] = place(omega, w);
-  const auto [d, ds] = place(heading, heading_near(heading, direction));
-  const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1), d1 = std::min(d + 1, n - 1);
+  const auto [d, d1, ds] = must_be_between(heading, direction);
+  const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1);
   const double fades = std::min(w / omega.front(), 1.0);
   return fades * ((1.0 - fs) * ((1.0 - ds) * force[f * n + d] + ds * force[f * n + d1]) +
                   fs * ((1.0 - ds) * force[f1 * n + d] + ds * force[f1 * n + d1]));
@@ -254,10 +299,9 @@ std::complex<double> WamitQuadratic::at(int mode, double first, double second, d
   if (first > omega.back() || second > omega.back()) return 0.0;
   const auto [a, as] = place(omega, first);
   const auto [b, bs] = place(omega, second);
-  const auto [d, ds] = place(heading, heading_near(heading, direction));
-  const std::size_t n = omega.size(), headings = heading.size(), a1 = std::min(a + 1, n - 1), b1 = std::min(b + 1, n - 1),
-                    d1 = std::min(d + 1, headings - 1);
-  const auto of = [&, d = d, ds = ds](std::size_t i, std::size_t j) {
+  const auto [d, d1, ds] = must_be_between(heading, direction);
+  const std::size_t n = omega.size(), headings = heading.size(), a1 = std::min(a + 1, n - 1), b1 = std::min(b + 1, n - 1);
+  const auto of = [&, d = d, d1 = d1, ds = ds](std::size_t i, std::size_t j) {
     const auto& all = transfer[std::size_t(mode)];
     return (1.0 - ds) * all[(i * n + j) * headings + d] + ds * all[(i * n + j) * headings + d1];
   };
@@ -267,8 +311,8 @@ std::complex<double> WamitQuadratic::at(int mode, double first, double second, d
 Eigen::Matrix<std::complex<double>, 6, 1> WamitExcitation::at(double w, double direction) const {
   if (w > omega.back()) return Eigen::Matrix<std::complex<double>, 6, 1>::Zero();
   const auto [f, fs] = place(omega, w);
-  const auto [d, ds] = place(heading, heading_near(heading, direction));
-  const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1), d1 = std::min(d + 1, n - 1);
+  const auto [d, d1, ds] = must_be_between(heading, direction);
+  const std::size_t n = heading.size(), f1 = std::min(f + 1, omega.size() - 1);
   return (1.0 - fs) * ((1.0 - ds) * force[f * n + d] + ds * force[f * n + d1]) +
          fs * ((1.0 - ds) * force[f1 * n + d] + ds * force[f1 * n + d1]);
 }

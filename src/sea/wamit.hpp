@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "kernels/waves/components.hpp"
+
 namespace spindrift::sea {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -61,6 +63,12 @@ struct WamitQuadratic {
   /// Linear in all three; below the first frequency it holds, beyond the last there is none.
   std::complex<double> at(int mode, double first_omega, double second_omega, double heading) const;
 };
+
+/// Whether a direction of waves is among a file's headings, whole turns aside, or between the last and the first where they go
+/// round the circle. The functions `at` take no other.
+bool covers(const std::vector<double>& headings, double direction);
+/// Throws scene::SceneError by key where the headings of a file do not cover a wave.
+void require_headings(const std::string& path, const std::vector<double>& headings, const std::vector<waves::Component>& waves);
 
 // They throw scene::SceneError naming file and line.
 WamitRadiation read_radiation(const std::string& path, const WamitScale& scale);
