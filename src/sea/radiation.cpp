@@ -51,6 +51,8 @@ void ConvolutionMemory::recall(std::span<const double> memory) {
 }
 
 void ConvolutionMemory::remember(double t, const Vector6& velocity, std::span<double> memory) const {
+  // Samples are a step apart: pieces of a step are not remembered, force() bridges them.
+  if (t - memory[time_at] < step_ * (1.0 - 1e-6)) return;
   const std::size_t head = memory[head_at] == 0.0 ? count_ - 1 : std::size_t(memory[head_at]) - 1;
   std::copy(velocity.data(), velocity.data() + 6, memory.begin() + std::ptrdiff_t(history_at + 6 * head));
   memory[time_at] = t, memory[head_at] = double(head);

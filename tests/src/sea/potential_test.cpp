@@ -11,10 +11,12 @@
 #include <complex>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 
 #include "src/bodies/loads.hpp"
 #include "src/bodies/system.hpp"
 #include "src/scene/error.hpp"
+#include "src/sea/engineering_sea.hpp"
 #include "tests/order.hpp"
 
 using namespace spindrift;
@@ -62,7 +64,7 @@ struct Heave {
 };
 
 Heave move(const Files& files, double start, double end, double step, const std::vector<waves::Component>& waves = {},
-           const std::string& radiation = "convolution") {
+           const std::string& radiation = "convolution", int pieces = 1) {
   const Motion initial;
   PotentialOptions options = files.options();
   options.radiation = radiation;
@@ -81,7 +83,7 @@ Heave move(const Files& files, double start, double end, double step, const std:
   system.begin(state, 0.0);
   Heave heave{{start}, step};
   for (int n = 0; n < int(std::lround(end / step)); ++n) {
-    REQUIRE(system.advance(state, step, 1).ok());
+    REQUIRE(system.advance(state, step, 1, pieces).ok());
     heave.z.push_back(state.motions[0].position.z());
   }
   return heave;
@@ -172,6 +174,81 @@ TEST_CASE("the decay converges with the step at second order", "[sea][order][fas
   const double fine = move(files, 1.0, 12.0, 0.0125).z.back();
   for (double step : {0.4, 0.2, 0.1}) h.push_back(step), error.push_back(std::abs(move(files, 1.0, 12.0, step).z.back() - fine));
   CHECK(observed_order(h, error) > 1.7);
+}
+
+TEST_CASE("steps in pieces decay as whole ones within 1 %: the convolution's samples stay a step apart", "[sea][fast]") {
+  const Files files;
+  const Heave whole = move(files, 1.0, 60.0, 0.1), pieces = move(files, 1.0, 60.0, 0.1, {}, "convolution", 4);
+  double apart = 0.0;
+  for (std::size_t n = 0; n < whole.z.size(); ++n) apart = std::max(apart, std::abs(whole.z[n] - pieces.z[n]));
+  CHECK(apart < 0.01);
+}
+
+TEST_CASE("headings that the excitation does not have are refused by key, with the file's range", "[sea][fast]") {
+  const Files files;  // of the heading 0 alone
+  const auto refusal = [&](std::initializer_list<double> degrees) -> std::string {
+    std::vector<waves::Component> waves;
+    for (const double d : degrees)
+      waves.push_back({.wave_number = 0.05, .angular_frequency = 0.7, .amplitude = 1.0, .direction = d * pi / 180.0});
+    try {
+      PotentialBody(files.options(), {density, 100.0, 10.0}, Motion{}, waves, 0.05);
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return "";
+  };
+  CHECK(refusal({360.0}).empty());
+  CHECK_THAT(refusal({20.0}), Catch::Contains("waves.direction_deg = 20") && Catch::Contains("heading 0 alone"));
+  CHECK_THAT(refusal({0.0, 5.0}), Catch::Contains("waves.spreading_range_deg") && Catch::Contains("towards 5 degrees"));
+}
+
+namespace {
+
+/// An upright column of 10 m diameter and draft in potential flow without exciting force, drag or memory.
+EngineeringSea column(const Files& files, bool linear) {
+  std::ofstream(files.folder / "column.3") << "2.0 0 3 0 0 0 0\n60.0 0 3 0 0 0 0\n";
+  const double area = pi * 25.0;
+  std::ofstream(files.folder / "column.hst") << std::setprecision(15) << "3 3 " << area << "\n";
+  SeaOptions options;
+  options.model = "potential", options.drag_coefficient = options.axial_drag_coefficient = 0.0;
+  options.potential = files.options();
+  options.potential->excitation_file = files.folder / "column.3", options.potential->radiation = "none";
+  options.potential->hydrostatics_file.clear(), options.potential->volume_m3.reset();
+  if (linear) options.potential->hydrostatics_file = files.folder / "column.hst", options.potential->volume_m3 = area * 10.0;
+  WavesOptions waves;
+  waves.model = "airy", waves.height_m = 2.0, waves.period_s = 10.0;
+  return EngineeringSea(options, waves, {density, 100.0, 10.0}, {{"body", {}, {{"column", {{0, 0, -10}, {0, 0, 10}, 5.0, 5.0}}}}},
+                        0.05);
+}
+
+Wrench load_on(const EngineeringSea& sea, double t, const Eigen::Vector3d& position, double pitch = 0.0) {
+  Motion m;
+  m.position = position, m.attitude = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
+  Wrench w;
+  w.point = position;
+  sea.add_loads(t, {&m, 1}, {&w, 1});
+  return w;
+}
+
+}  // namespace
+
+TEST_CASE("without exciting force waves leave a body in potential flow to still water", "[sea][fast]") {
+  const Files files;
+  const EngineeringSea sea = column(files, false);
+  const Wrench rest = load_on(sea, 0.0, {3.0, 0.0, 0.2}, 0.05);
+  CHECK(load_on(sea, 0.0, Eigen::Vector3d::Zero()).force.z() == Approx(density * 10.0 * pi * 25.0 * 10.0));
+  CHECK(rest.moment.y() != 0.0);
+  for (double t = 0.5; t < 10.0; t += 0.5) {
+    const Wrench now = load_on(sea, t, {3.0, 0.0, 0.2}, 0.05);
+    CHECK(now.force == rest.force);
+    CHECK(now.moment == rest.moment);
+  }
+}
+
+TEST_CASE("cylinders and the stiffness of the same column carry it alike in waves", "[sea][fast]") {
+  const Files files;
+  const EngineeringSea cylinders = column(files, false), linear = column(files, true);
+  for (double t = 0.0; t < 10.0; t += 1.0)
+    for (const double z : {-0.5, 0.0, 0.8})
+      CHECK(load_on(cylinders, t, {0.0, 0.0, z}).force.z() == Approx(load_on(linear, t, {0.0, 0.0, z}).force.z()).epsilon(1e-9));
 }
 
 TEST_CASE("in regular waves heave settles on X / (c - w^2 (m + A) + i w B) of the frequency domain within 1 %", "[sea][fast]") {
