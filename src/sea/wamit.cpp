@@ -7,10 +7,11 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <ranges>
 #include <set>
 #include <sstream>
-
 #include <stdexcept>
+
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
 #include "src/scene/error.hpp"
@@ -87,10 +88,12 @@ WamitRadiation read_radiation(const std::string& path, const WamitScale& s) {
   };
   std::map<double, At> by_frequency;
   WamitRadiation result;
+  bool has[6][6] = {};
   for (const Row& row : read_rows(path, {4, 5})) {
     const double period = row.values[0];
     const int i = mode(path, row, 1), j = mode(path, row, 2);
     const double mass = row.values[3] * s.density * power(s.length, i, j, 3);
+    has[i][j] = true;
     if (period <= 0.0) {
       auto& limit = period < 0.0 ? result.zero : result.infinite;
       if (!limit) limit = Matrix6::Zero();
@@ -103,6 +106,15 @@ WamitRadiation read_radiation(const std::string& path, const WamitScale& s) {
     at.added(i, j) = mass, at.damping(i, j) = row.values[4] * s.density * power(s.length, i, j, 3) * omega;
   }
   if (by_frequency.size() < 2) refuse(path, 0, "has fewer than two frequencies");
+  // Both matrices are symmetric: a file may have one triangle of them.
+  const auto complete = [&has](Matrix6& m) {
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        if (!has[i][j] && has[j][i]) m(i, j) = m(j, i);
+  };
+  for (auto& [omega, at] : by_frequency) complete(at.added), complete(at.damping);
+  for (auto* limit : {&result.zero, &result.infinite})
+    if (*limit) complete(**limit);
   for (const auto& [omega, at] : by_frequency)
     result.omega.push_back(omega), result.added_mass.push_back(at.added), result.damping.push_back(at.damping);
   return result;
@@ -121,7 +133,7 @@ WamitExcitation read_excitation(const std::string& path, const WamitScale& s) {
   for (const auto& [heading, force] : all.begin()->second) result.heading.push_back(heading);
   for (const auto& [omega, headings] : all) {
     result.omega.push_back(omega);
-    if (headings.size() != result.heading.size())
+    if (!std::ranges::equal(std::views::keys(headings), result.heading))
       refuse(path, 0, "has other headings at period " + std::to_string(2.0 * pi / omega) + " s than at its longest");
     for (const auto& [heading, force] : headings) result.force.push_back(force);
   }
@@ -211,18 +223,6 @@ std::size_t index_of(const std::vector<double>& values, double value) {
 
 }  // namespace
 
-WamitDrift read_drift(const std::string& path, const WamitScale& s) {
-  std::set<double> omega, heading;
-  std::vector<SecondOrderRow> rows = second_order_rows(path, s, {8, 9});
-  std::erase_if(rows, [](const SecondOrderRow& r) { return r.first != r.second; });
-  if (rows.empty()) refuse(path, 0, "has no loads of two waves of the same period");
-  for (const SecondOrderRow& r : rows) omega.insert(r.first), heading.insert(r.heading);
-  WamitDrift drift{sorted(omega), sorted(heading), {}};
-  const std::size_t places = drift.omega.size() * drift.heading.size();
-  drift.force.assign(places, Eigen::Matrix<double, 6, 1>::Zero());
-  std::array<std::vector<int>, 6> line;  // by place: where it stands
-  for (const SecondOrderRow& r : rows) {
-    const std::size_t at = index_of(drift.omega, r.first) * drift.heading.size() + index_of(drift.heading, r.heading);
 bool covers(const std::vector<double>& headings, double direction) { return between(headings, direction).has_value(); }
 
 void require_headings(const std::string& path, const std::vector<double>& headings, const std::vector<waves::Component>& waves) {
@@ -242,6 +242,18 @@ void require_headings(const std::string& path, const std::vector<double>& headin
   }
 }
 
+WamitDrift read_drift(const std::string& path, const WamitScale& s) {
+  std::set<double> omega, heading;
+  std::vector<SecondOrderRow> rows = second_order_rows(path, s, {8, 9});
+  std::erase_if(rows, [](const SecondOrderRow& r) { return r.first != r.second; });
+  if (rows.empty()) refuse(path, 0, "has no loads of two waves of the same period");
+  for (const SecondOrderRow& r : rows) omega.insert(r.first), heading.insert(r.heading);
+  WamitDrift drift{sorted(omega), sorted(heading), {}};
+  const std::size_t places = drift.omega.size() * drift.heading.size();
+  drift.force.assign(places, Eigen::Matrix<double, 6, 1>::Zero());
+  std::array<std::vector<int>, 6> line;  // by place: where it stands
+  for (const SecondOrderRow& r : rows) {
+    const std::size_t at = index_of(drift.omega, r.first) * drift.heading.size() + index_of(drift.heading, r.heading);
     std::vector<int>& lines = line[std::size_t(r.mode)];
     lines.resize(places);
     if (lines[at] > 0) refuse(path, r.line, "repeats line " + std::to_string(lines[at]));
