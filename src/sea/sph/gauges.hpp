@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,14 +27,11 @@ struct NearWater {
   double z, volume;  ///< [m], [m3] (2-D: [m2])
 };
 
-/// Highest z where the filled share falls through half of what it is in the water below; nothing where there is no water.
+/// Highest z where the filled share falls through half of what it is in the water below; nothing where what is near `top`, the
+/// highest particle that counts, is spray.
 template <int dim>
-double surface_height(std::span<const NearWater> water, double h) {
-  constexpr double dry = -std::numeric_limits<double>::infinity();
-  if (water.empty()) return dry;
+std::optional<double> surface_height(std::span<const NearWater> water, double h, double top) {
   const KernelWendland<dim> kernel(h);
-  double top = dry;
-  for (const NearWater& p : water) top = std::max(top, p.z);
   const double step = 0.1 * h;
   const auto filled = [&](double z) {
     double sum = 0.0;
@@ -43,14 +41,15 @@ double surface_height(std::span<const NearWater> water, double h) {
     }
     return sum;
   };
-  constexpr int depth = 60;  // 4 h below the highest particle's reach, where the share has its inner value
+  // To 4 h below the highest particle: the share has its inner value 2 h below the surface, which must be in the upper part.
+  constexpr int depth = 60, upper = depth - 20;
   std::array<double, depth> share;
-  double most = 0.0;
-  for (int n = 0; n < depth; ++n) share[n] = filled(top + 2.0 * h - n * step), most = std::max(most, share[n]);
-  if (most < 0.3) return dry;  // spray
-  for (int n = 1; n < depth; ++n)
+  for (int n = 0; n < depth; ++n) share[n] = filled(top + 2.0 * h - n * step);
+  if (*std::max_element(share.begin(), share.begin() + upper) < 0.3) return std::nullopt;
+  const double most = *std::max_element(share.begin(), share.end());
+  for (int n = 1; n < upper; ++n)
     if (share[n] >= 0.5 * most) return top + 2.0 * h - step * (n - (share[n] - 0.5 * most) / (share[n] - share[n - 1]));
-  return dry;
+  return std::nullopt;
 }
 
 template <int dim, class Real, class Visit>
@@ -75,19 +74,24 @@ double apart(const Domain<dim>& domain, int axis, double difference) {
 }
 
 /// Heights of the surface at places (x; in 3-D x, y) [m]; `dry` where there is no water. Each place is summed up by one rank.
+/// Where the highest particles are spray the next round looks below them.
 template <int dim, class Real>
 std::vector<double> surface_heights(const Store<dim, Real>& store, const Parameters& p, const Domain<dim>& domain,
                                     std::span<const std::array<double, dim - 1>> places, double dry,
                                     MPI_Comm comm = MPI_COMM_SELF) {
-  // Places are looked up by cells of one reach along x, so that a field of them costs each particle a few comparisons.
-  const double reach = p.reach(), mass = p.mass(dim);
-  const auto cell_of = [&](double x) { return int(std::floor((x - domain.low[0]) / reach)); };
-  const int cells = cell_of(domain.high[0]) + 1;
-  std::vector<std::vector<std::uint32_t>> in_cell(std::size_t(std::max(cells, 1)));
-  for (std::uint32_t n = 0; n < places.size(); ++n)
-    in_cell[std::size_t(std::clamp(cell_of(places[n][0]), 0, cells - 1))].push_back(n);
+  constexpr double none = -1e300;
+  const auto ranks = std::size_t(runtime::ranks_in(comm)), rank = std::size_t(runtime::rank_in(comm));
+  // Places are looked up by cells of at least one reach along x, so that a field of them costs each particle a few comparisons.
+  const double reach = p.reach(), mass = p.mass(dim), length = domain.high[0] - domain.low[0];
+  const int cells = std::max(1, int(length / reach));
+  const auto cell_of = [&](double x) {
+    const int cell = int(std::floor((x - domain.low[0]) / length * cells));
+    return domain.periodic[0] ? ((cell % cells) + cells) % cells : std::clamp(cell, 0, cells - 1);
+  };
+  std::vector<std::vector<std::uint32_t>> in_cell(static_cast<std::size_t>(cells));
+  for (std::uint32_t n = 0; n < places.size(); ++n) in_cell[std::size_t(cell_of(places[n][0]))].push_back(n);
   const auto for_near = [&](std::size_t slot, auto&& visit) {
-    const int home = std::clamp(cell_of(store.x[0][slot]), 0, cells - 1);
+    const int home = cell_of(store.x[0][slot]);
     for (int step = -1; step <= 1; ++step) {
       int cell = home + step;
       if (domain.periodic[0]) cell = (cell + cells) % cells;
@@ -102,61 +106,73 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
       }
     }
   };
-  std::vector<double> top(places.size(), -1e300);
-  for_water_particles(store, [&](std::size_t slot) {
-    for_near(slot, [&](std::uint32_t n, double) { top[n] = std::max(top[n], store.x[dim - 1][slot]); });
-  });
-  const auto ranks = std::size_t(runtime::ranks_in(comm)), rank = std::size_t(runtime::rank_in(comm));
-  if (ranks > 1) {
-    runtime::Packer mine;
-    mine.put(std::span<const double>(top));
-    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
-      const auto theirs = runtime::Unpacker(bytes).template many<double>();
-      for (std::size_t n = 0; n < top.size(); ++n) top[n] = std::max(top[n], theirs[n]);
-    }
-  }
   struct Found {
     std::uint32_t place;
     NearWater water;
   };
-  std::vector<runtime::Packer> to(ranks);
-  std::vector<std::vector<NearWater>> water(places.size());
-  for_water_particles(store, [&](std::size_t slot) {
-    for_near(slot, [&](std::uint32_t n, double distance2) {
-      if (!(store.x[dim - 1][slot] > top[n] - 8.0 * p.h())) return;
-      const NearWater near{distance2, store.x[dim - 1][slot], mass / (p.eos.rho0 + store.deviation[slot])};
-      if (n % ranks == rank)
-        water[n].push_back(near);
-      else
-        to[n % ranks].put_one(Found{n, near});
+  std::vector<double> heights(places.size(), dry), below(places.size(), 1e300), top(places.size());
+  while (std::ranges::any_of(in_cell, [](const auto& cell) { return !cell.empty(); })) {
+    std::ranges::fill(top, none);
+    for_water_particles(store, [&](std::size_t slot) {
+      const double z = store.x[dim - 1][slot];
+      for_near(slot, [&](std::uint32_t n, double) {
+        if (z < below[n]) top[n] = std::max(top[n], z);
+      });
     });
-  });
-  if (ranks > 1) {
-    std::vector<runtime::Bytes> parcels;
-    for (runtime::Packer& packer : to) parcels.push_back(packer.take());
-    for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
-      for (runtime::Unpacker from(bytes); !from.done();) {
-        const Found found = from.one<Found>();
-        water[found.place].push_back(found.water);
+    if (ranks > 1) {
+      runtime::Packer mine;
+      mine.put(std::span<const double>(top));
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
+        const auto theirs = runtime::Unpacker(bytes).template many<double>();
+        for (std::size_t n = 0; n < top.size(); ++n) top[n] = std::max(top[n], theirs[n]);
       }
-  }
-  std::vector<double> heights(places.size());
-  for (std::size_t n = rank; n < places.size(); n += ranks) {
-    // The order of terms must not depend on where particles lie in memory.
-    std::sort(water[n].begin(), water[n].end(),
-              [](const NearWater& a, const NearWater& b) { return a.z != b.z ? a.z < b.z : a.distance2 < b.distance2; });
-    const double z = surface_height<dim>(water[n], p.h());
-    heights[n] = std::isfinite(z) ? z : dry;
-  }
-  if (ranks > 1) {
-    runtime::Packer mine;
-    mine.put(std::span<const double>(heights));
-    std::size_t from_rank = 0;
-    for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
-      const auto theirs = runtime::Unpacker(bytes).template many<double>();
-      for (std::size_t n = from_rank; n < heights.size(); n += ranks) heights[n] = theirs[n];
-      ++from_rank;
     }
+    std::vector<runtime::Packer> to(ranks);
+    std::vector<std::vector<NearWater>> water(places.size());
+    for_water_particles(store, [&](std::size_t slot) {
+      const double z = store.x[dim - 1][slot];
+      for_near(slot, [&](std::uint32_t n, double distance2) {
+        if (!(z > top[n] - 8.0 * p.h() && z < top[n] + 4.0 * p.h())) return;
+        const NearWater near{distance2, z, mass / (p.eos.rho0 + store.deviation[slot])};
+        if (n % ranks == rank)
+          water[n].push_back(near);
+        else
+          to[n % ranks].put_one(Found{n, near});
+      });
+    });
+    if (ranks > 1) {
+      std::vector<runtime::Bytes> parcels;
+      for (runtime::Packer& packer : to) parcels.push_back(packer.take());
+      for (const runtime::Bytes& bytes : runtime::exchange(comm, parcels))
+        for (runtime::Unpacker from(bytes); !from.done();) {
+          const Found found = from.one<Found>();
+          water[found.place].push_back(found.water);
+        }
+    }
+    std::vector<double> read(places.size(), none);  // none: spray, or no water
+    for (std::size_t n = rank; n < places.size(); n += ranks) {
+      if (water[n].empty()) continue;
+      // The order of terms must not depend on where particles lie in memory.
+      std::sort(water[n].begin(), water[n].end(),
+                [](const NearWater& a, const NearWater& b) { return a.z != b.z ? a.z < b.z : a.distance2 < b.distance2; });
+      read[n] = surface_height<dim>(water[n], p.h(), top[n]).value_or(none);
+    }
+    if (ranks > 1) {
+      runtime::Packer mine;
+      mine.put(std::span<const double>(read));
+      std::size_t from_rank = 0;
+      for (const runtime::Bytes& bytes : runtime::exchange_all(comm, mine.take())) {
+        const auto theirs = runtime::Unpacker(bytes).template many<double>();
+        for (std::size_t n = from_rank; n < read.size(); n += ranks) read[n] = theirs[n];
+        ++from_rank;
+      }
+    }
+    for (auto& cell : in_cell)
+      std::erase_if(cell, [&](std::uint32_t n) {
+        if (read[n] != none) heights[n] = read[n];
+        below[n] = top[n] - p.h();  // a surface within 2 h of the top would have been found
+        return read[n] != none || top[n] == none;
+      });
   }
   return heights;
 }

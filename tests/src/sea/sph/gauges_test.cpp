@@ -4,9 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "kernels/base/constants.hpp"
 #include "src/sea/sph/lattice.hpp"
 #include "src/sea/sph/ordering.hpp"
 
+using namespace spindrift;
 using namespace spindrift::sph;
 
 namespace {
@@ -17,10 +19,15 @@ struct Water {
   Domain<dim> domain;
   Store<dim, float> store;
 
-  explicit Water(double spacing, double slope, std::array<double, dim> velocity = {}) {
+  /// `spray`: heights of single particles over the place (1, 1).
+  explicit Water(double spacing, double slope, std::array<double, dim> velocity = {}, const std::vector<double>& spray = {}) {
     p.spacing = spacing, p.h_over_d = 1.5, p.eos = {1000.0, 40.0};
-    domain.low.fill(-1.0), domain.high.fill(3.0);
+    domain.low.fill(-1.0), domain.high.fill(3.0), domain.high[dim - 1] = 6.0;
     std::vector<Seed<dim>> seeds;
+    for (const double z : spray) {
+      seeds.emplace_back().position.fill(1.01);
+      seeds.back().position[dim - 1] = z;
+    }
     std::array<int, dim> low{}, high;
     high.fill(int(std::lround(2.0 / spacing)));
     std::array<double, dim> origin;
@@ -56,6 +63,49 @@ TEST_CASE("a gauge reads a slope of lattice stairs within half a spacing and not
   const Water<2> plane(0.05, 0.2);
   for (double x : {0.4, 0.8, 1.2, 1.6}) CHECK(plane.height(x) == Approx(1.0 + 0.2 * (x - 1.0)).margin(0.025));
   CHECK(plane.height(2.6) == -9.0);
+}
+
+namespace {
+
+/// Within a twentieth of a spacing under spray so many smoothing lengths above.
+template <int dim>
+void reads_level_under_spray(double spacing) {
+  const double h = 1.5 * spacing;
+  for (const std::vector<double>& above : std::vector<std::vector<double>>{{1.5}, {3}, {4}, {5}, {9}, {20}, {2.5, 5, 9, 11}}) {
+    std::vector<double> spray;
+    for (const double n : above) spray.push_back(1.0 + n * h);
+    CAPTURE(dim, above);
+    CHECK(Water<dim>(spacing, 0.0, {}, spray).height(1.0) == Approx(1.0).margin(0.05 * spacing));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a gauge reads the level under spray, and nothing where there is spray alone", "[sea][sph][fast]") {
+  reads_level_under_spray<2>(0.05);
+  reads_level_under_spray<3>(0.1);
+  CHECK(Water<2>(0.05, 0.0, {}, {1.5}).height(2.6) == -9.0);
+  CHECK(Water<2>(0.05, -9.0, {}, {1.5, 2.5}).height(1.9) == -9.0);
+}
+
+TEST_CASE("a gauge beside sides that repeat sees the water of both", "[sea][sph][fast]") {
+  Parameters p;
+  p.spacing = 0.05, p.h_over_d = 1.5, p.eos = {1000.0, 40.0};
+  Domain<2> domain;
+  domain.low.fill(0.0), domain.high.fill(4.0), domain.periodic = {true, false};
+  std::vector<Seed<2>> seeds;
+  for (int i = 0; i < 80; ++i)
+    for (int k = 0; k < 30; ++k) {
+      const Seed<2> seed{.position = {(i + 0.5) * p.spacing, (k + 0.5) * p.spacing}};
+      if (seed.position[1] < 1.0 + 0.2 * std::sin(pi * seed.position[0])) seeds.push_back(seed);  // two waves
+    }
+  Store<2, double> store;
+  fill<2, double>(store, seeds, Columns<2>(domain, 2.0 * p.reach(), 2.0 * p.reach()), p.anchor_step());
+  for (const double x : {0.001, 0.04, 0.1, 1.9, 1.96, 1.999}) {
+    const std::vector<std::array<double, 1>> places{{x}, {x + 2.0}};
+    const std::vector<double> read = surface_heights<2>(store, p, domain, std::span(places), -9.0);
+    CHECK(read[0] == Approx(read[1]).margin(1e-12));
+  }
 }
 
 TEST_CASE("a probe reads hydrostatic pressure within 1 % of the depth's, also at a wall, and the flow's velocity",
