@@ -117,6 +117,8 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
     const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
     const sph::Paddle paddle{.flap = o.wavemaker->type == "flap", .x = t.x_m[0], .hinge = hinge, .bed = bed};
     const double reach = sph::Wavemaker(paddle, plan.waves, plan.second_order, o.wavemaker->stroke_m.value_or(0.0)).reach();
+  if (o.initial)  // the sea begins in the waves of then
+    for (waves::Component& c : plan.tank.waves) c.phase += c.angular_frequency * o.initial->settle_s;
     plan.tank.paddle = paddle;
     plan.tank.paddle_reach = paddle.flap ? reach * (t.top_m - hinge) / -hinge : reach;
   }

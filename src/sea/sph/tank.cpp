@@ -68,8 +68,16 @@ class PlacesBySurfaces {
   std::vector<Of> of_;  ///< z fastest; empty where no surface makes walls
 };
 
-/// Where a particle of water at rest is at t = 0 in the motion of the waves, and its velocity: displacements of linear theory,
-/// (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order.
+/// cosh(k (z + h)) / sinh(k h) and sinh(k (z + h)) / sinh(k h), in deep water before these overflow.
+std::array<double, 2> over_sinh(double k, double z, double depth) {
+  constexpr double deep = 300.0;
+  const double kz = k * (z + depth), kh = k * depth;
+  if (kh > deep) return {std::exp(k * z), std::exp(k * z)};
+  return {std::cosh(kz) / std::sinh(kh), std::sinh(kz) / std::sinh(kh)};
+}
+
+/// Where a particle of water at rest is in the motion of the waves at their t = 0, and its velocity: displacements of linear
+/// theory, (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order.
 template <int dim>
 void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth) {
   Eigen::Vector3d x = to_earth<dim>(seed.position), v = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();

@@ -47,7 +47,7 @@ struct TankPlan {
   };
   std::vector<Body> bodies;             ///< those with shapes
   bool modified_walls = false;          ///< wall particles have ghost nodes; the bed must be flat
-  std::vector<waves::Component> waves;  ///< the start is in their motion at t = 0; empty: still
+  std::vector<waves::Component> waves;  ///< the start is in their motion at their t = 0; empty: still
   double jitter = 0.0;                  ///< of the water's particles along each axis, in spacings
   std::uint64_t jitter_seed = 1;
 
