@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kernels/rigid/closed_surface.hpp"
+#include "kernels/waves/dispersion.hpp"
 #include "src/sea/particle_sea.hpp"
 #include "src/sea/sph/sensors.hpp"
 #include "src/sea/wave_field.hpp"
@@ -80,6 +81,13 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
 
 sph::TankPlan::Block block_of(const BoxOptions& box) { return {box.low_m, box.high_m}; }
 
+/// Waves with the wave numbers that they have over a bed shallower than the scene's.
+std::vector<waves::Component> over_bed(std::vector<waves::Component> waves, double bed, const SeaEnvironment& environment) {
+  if (bed != -environment.water_depth)
+    for (waves::Component& c : waves) c.wave_number = waves::wave_number(c.angular_frequency, -bed, environment.gravity);
+  return waves;
+}
+
 }  // namespace
 
 ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
@@ -115,10 +123,16 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
     plan.wavemaker = o.wavemaker;
     if (!plan.wavemaker->ramp_s) plan.wavemaker->ramp_s = o.starts_in_waves() ? 0.0 : growth_time(waves);
     const double bed = plan.tank.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
-    const sph::Paddle paddle{.flap = o.wavemaker->type == "flap", .x = t.x_m[0], .hinge = hinge, .bed = bed};
-    const double reach = sph::Wavemaker(paddle, plan.waves, plan.second_order, o.wavemaker->stroke_m.value_or(0.0)).reach();
-  if (o.initial)  // the sea begins in the waves of then
-    for (waves::Component& c : plan.tank.waves) c.phase += c.angular_frequency * o.initial->settle_s;
+    const sph::Paddle paddle{.flap = o.wavemaker->type == "flap",
+                             .x = t.x_m[0],
+                             .hinge = hinge,
+                             .bed = bed,
+                             .start_s = o.wavemaker->start_s,
+                             .ramp_s = *plan.wavemaker->ramp_s,
+                             .in_waves = o.initial && o.initial->state == "waves"};
+    const std::vector<waves::Component> made = over_bed(plan.waves, bed, environment);
+    plan.paddle.emplace(paddle, made, plan.second_order, o.wavemaker->stroke_m.value_or(0.0));
+    const double reach = plan.paddle->reach();
     plan.tank.paddle = paddle;
     plan.tank.paddle_reach = paddle.flap ? reach * (t.top_m - hinge) / -hinge : reach;
   }
@@ -204,7 +218,10 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
-    const double bed = t.bed_m.empty() ? -depth : t.bed_m.front()[1];
+    const double bed = sph::TankPlan{.depth = depth, .bed = t.bed_m}.bed_at(t.x_m[0]);
+    if (!(bed < 0.0))
+      wrong("sea.tank.bed_m",
+            fmt::format("must be below still water at the paddle of [sea.wavemaker], where it is at {:.4g} m", bed));
     if (w.type == "flap" && waved && wave_models().named(waves.model).second_order)
       wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for " + waves.model);
     if (w.stroke_m && !(waved && wave_models().named(waves.model).regular))

@@ -34,20 +34,6 @@ sph::TankPlan tank_with_bodies(const ParticlePlan& plan, std::span<const Motion>
   return tank;
 }
 
-sph::Paddle paddle_of(const ParticlePlan& plan) {
-  const WavemakerOptions& w = *plan.wavemaker;
-  const double bed = plan.tank.bed_at(plan.tank.x[0]);
-  return {.flap = w.type == "flap",
-          .x = plan.tank.x[0],
-          .hinge = w.hinge_m.value_or(bed),
-          .bed = bed,
-          .start_s = w.start_s,
-          .ramp_s = w.ramp_s.value_or(0.0)};
-}
-sph::Wavemaker wavemaker_of(const ParticlePlan& plan) {
-  return {paddle_of(plan), plan.waves, plan.second_order, plan.wavemaker->stroke_m.value_or(0.0)};
-}
-
 /// Largest step of a floating body in explicit coupling, as SeaSph::add_body bounds it.
 template <int dim>
 double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of, const sph::Parameters& p, double share) {
@@ -100,7 +86,7 @@ class Sea final : public ParticleSea {
         ranks_(world.size),
         sea_(parameters, tank.domain, tank.seeds, {.comm = world.comm}),
         particles_(tank.seeds.size()),
-        solids_(sea_, plan, start, tank, tank.paddle ? std::optional(wavemaker_of(plan)) : std::nullopt) {
+        solids_(sea_, plan, start, tank, plan.paddle) {
     sea_.state().damping = damping_of(plan);
     steps_.steps.steps_per_check = plan.options.limits_every;
     steps_.steps.choose = [this](double limit, int most) {

@@ -50,6 +50,7 @@ struct ParticlePlan {
   std::vector<waves::Component> waves;  ///< of [waves]
   bool second_order = false;
   std::optional<WavemakerOptions> wavemaker;
+  std::optional<sph::Wavemaker> paddle;
   std::vector<DampingZoneOptions> damping_zones;
   double settle_damping = 0.0;
   std::vector<GaugeOptions> gauges;

@@ -25,16 +25,25 @@ Wavemaker::Wavemaker(const Paddle& paddle, std::span<const waves::Component> com
       break;
     }
   }
+  if (paddle.ramp_s > 0.0) return;
+  const double start = of_harmonics(paddle.start_s).displacement;
+  (paddle.in_waves ? before_ : offset_) = start;
 }
 
-Wavemaker::Stroke Wavemaker::stroke(double t) const {
-  const double since = t - paddle_.start_s;
-  if (since <= 0.0) return {0.0, 0.0};
+Wavemaker::Stroke Wavemaker::of_harmonics(double t) const {
   Stroke s{0.0, 0.0};
   for (const Harmonic& h : harmonics_) {
     s.displacement += h.amplitude * std::sin(h.omega * t + h.phase);
     s.velocity += h.amplitude * h.omega * std::cos(h.omega * t + h.phase);
   }
+  return s;
+}
+
+Wavemaker::Stroke Wavemaker::stroke(double t) const {
+  const double since = t - paddle_.start_s;
+  if (since <= 0.0) return {before_, 0.0};
+  Stroke s = of_harmonics(t);
+  s.displacement -= offset_;
   if (since >= paddle_.ramp_s) return s;
   const double x = since / paddle_.ramp_s, ramp = x * x * (3.0 - 2.0 * x), rate = 6.0 * x * (1.0 - x) / paddle_.ramp_s;
   return {ramp * s.displacement, ramp * s.velocity + rate * s.displacement};
@@ -56,7 +65,7 @@ Motion Wavemaker::motion(double t) const {
 }
 
 double Wavemaker::reach() const {
-  double sum = 0.0;
+  double sum = std::abs(offset_);
   for (const Harmonic& h : harmonics_) sum += std::abs(h.amplitude);
   return sum;
 }

@@ -18,6 +18,7 @@ struct Paddle {
   double hinge = 0.0;  ///< height of a flap's hinge [m]
   double bed = 0.0;    ///< height of the bed at the paddle, minus the depth [m]
   double start_s = 0.0, ramp_s = 0.0;
+  bool in_waves = false;  ///< the water starts in the waves, and so does a paddle without a ramp
 };
 
 class Wavemaker {
@@ -26,11 +27,13 @@ class Wavemaker {
   struct Harmonic {
     double amplitude, omega, phase;
   };
-  /// Makes the free waves among `components` (those that travel along x); second_order: the first one is a regular wave whose
-  /// bound harmonic is to come out bound. stroke > 0 replaces that of the first harmonic [m].
+  /// Makes the free waves among `components` (those that travel along x, with the wave numbers over the paddle's bed);
+  /// second_order: the first one is a regular wave whose bound harmonic is to come out bound. stroke > 0 replaces that of the
+  /// first harmonic [m].
   Wavemaker(const Paddle& paddle, std::span<const waves::Component> components, bool second_order, double stroke = 0.0);
 
-  /// Displacement and velocity at still water [m], [m/s].
+  /// Displacement and velocity at still water [m], [m/s]. Without a ramp a paddle in still water goes on from rest by what the
+  /// harmonics do since the start.
   struct Stroke {
     double displacement, velocity;
   };
@@ -38,13 +41,17 @@ class Wavemaker {
   /// Of the paddle as a rigid body: position of the point (x, 0, hinge) that a flap turns about.
   Motion motion(double t) const;
   Motion at_rest() const;
-  /// Largest displacement of the face from rest, at still water [m]: the sum of the amplitudes.
+  /// Bound on the displacement of the face from rest, at still water [m].
   double reach() const;
   std::span<const Harmonic> harmonics() const { return harmonics_; }
   const Paddle& paddle() const { return paddle_; }
 
  private:
+  Stroke of_harmonics(double t) const;
+
   Paddle paddle_;
+  double before_ = 0.0;  ///< displacement until the start [m]
+  double offset_ = 0.0;  ///< of the harmonics from it at the start [m]
   std::vector<Harmonic> harmonics_;
 };
 

@@ -59,6 +59,25 @@ TEST_CASE("the paddle's velocity is the rate of its displacement, through the ra
   CHECK(maker.stroke(0.9).displacement == 0.0);
 }
 
+TEST_CASE("a paddle without a ramp does not jump at its start: from rest in still water, in its place where the water has waves",
+          "[sea][sph][fast]") {
+  std::vector<waves::Component> record{regular(), regular()};
+  record[0].phase = 0.5 * pi, record[1].phase = 1.0, record[1].angular_frequency *= 1.3, record[1].wave_number *= 1.6;
+  const bool in_waves = GENERATE(false, true);
+  const Paddle paddle{.x = -3.0, .bed = -depth, .start_s = 1.0, .in_waves = in_waves};
+  const Wavemaker maker(paddle, record, false);
+  const double before = maker.stroke(0.0).displacement;
+  CHECK(maker.stroke(0.0).velocity == 0.0);
+  CHECK((before == 0.0) == !in_waves);
+  CHECK(maker.stroke(1.0).displacement == before);
+  CHECK(maker.stroke(1.0 + 1e-9).displacement == Approx(before).margin(1e-8));
+  double harmonics = 0.0;
+  for (const Wavemaker::Harmonic& h : maker.harmonics())
+    harmonics += h.amplitude * (std::sin(h.omega * 9.0 + h.phase) - std::sin(h.omega * 1.0 + h.phase));
+  CHECK(maker.stroke(9.0).displacement - before == Approx(harmonics));
+  for (double t = 1.0; t < 100.0; t += 0.3) CHECK(std::abs(maker.stroke(t).displacement) <= maker.reach());
+}
+
 TEST_CASE("Madsen's second-order piston adds a tenth of the first harmonic or less where the wave is Stokes'",
           "[sea][sph][fast]") {
   const waves::Component wave = regular();
