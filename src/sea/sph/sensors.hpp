@@ -168,6 +168,7 @@ void read_patch(const Store<dim, Real>& store, const Parameters& p, const Domain
   }
   double* const force = sums.data() + 3 * points.size();
   for_clusters_of(store, patch.owner, group, [&](std::size_t cluster) {
+    const double own_mass = mass * store.weight_of(cluster);
     for (int lane = 0; lane < cluster_size && store.id[cluster * cluster_size + lane] != no_particle; ++lane) {
       const Eigen::Vector3d x =
           body ? body->local[store.id[cluster * cluster_size + lane] - body->first_id] : to_earth<dim>(place(cluster, lane));
@@ -175,7 +176,7 @@ void read_patch(const Store<dim, Real>& store, const Parameters& p, const Domain
       for (int k = 0; k < 3; ++k) inside = inside && ((dim == 2 && k == 1) || (x[k] >= patch.low[k] && x[k] <= patch.high[k]));
       if (!inside) continue;
       std::array<double, dim> f;
-      for (int k = 0; k < dim; ++k) f[k] = mass * mass * double(store.sums_of(cluster)[k * cluster_size + lane]);
+      for (int k = 0; k < dim; ++k) f[k] = own_mass * mass * double(store.sums_of(cluster)[k * cluster_size + lane]);
       const Eigen::Vector3d on = to_earth<dim>(f);
       for (int k = 0; k < 3; ++k) force[k] += on[k];
     }

@@ -84,3 +84,27 @@ TEST_CASE("patches in still water read the pressure at their middle within 1 % o
   CHECK(read(2).force[2] + read(3).force[2] == Approx(load.force[2]).epsilon(1e-9));
   CHECK(read(2).force[0] + read(3).force[0] == Approx(load.force[0]).margin(1e-6 * weight));
 }
+
+TEST_CASE("patches share out the load on a body whose particles have its own mass", "[sea][sph][sensor][fast]") {
+  TankPlan plan;
+  plan.x = {-1.0, 1.0}, plan.depth = 1.0, plan.top = 0.3;
+  const BodyShape hull = Box{.centre = {0, 0, 0}, .size = {0.6, 1.0, 0.6}};
+  plan.bodies = {{"box", {hull}, {.position = {0.013, 0.0, -0.1}}}};
+  Parameters p;
+  p.spacing = 0.1, p.h_over_d = 1.5, p.eos = {1000.0, 10.0 * std::sqrt(p.gravity)}, p.own_mass = true;
+  const auto tank = lay_out<2>(plan, p);
+  SeaSph<2> sea(p, tank.domain, tank.seeds);
+  sea.add_body(tank.bodies[0], plan.bodies[0].motion, 0.4 * double(tank.body_points[0].size()) * p.mass(2));
+  for (const auto& [low, high] : {std::pair{-9.0, 0.0}, {0.0, 9.0}}) {
+    const Eigen::Vector3d from(-9, -9, low), to(9, 9, high);
+    sea.add_sensor({.owner = tank.bodies[0],
+                    .low = from,
+                    .high = to,
+                    .points = points_of_surface(std::vector{hull}, from, to, p.spacing, Cut::plane)});
+  }
+  sea.evaluate();
+  read_sensors(sea.state(), MPI_COMM_SELF);
+  const Wrench load = sea.load_on(tank.bodies[0], Eigen::Vector3d::Zero());
+  CHECK(load.force[2] > 100.0);
+  CHECK(sea.state().records[0].mean().force[2] + sea.state().records[1].mean().force[2] == Approx(load.force[2]).epsilon(1e-9));
+}
