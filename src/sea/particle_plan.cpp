@@ -117,6 +117,8 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
       plan.tank.waves.push_back(mirrored);
     }
   }
+  if (o.initial)  // the sea begins in the waves of then
+    for (waves::Component& c : plan.tank.waves) c.phase += c.angular_frequency * o.initial->settle_s;
   plan.settle_damping = o.initial ? o.initial->settle_damping_1_s : 0.0;
   plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes, plan.sensors = o.sensors;
   if (o.wavemaker) {
@@ -213,6 +215,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (waved && o.wavemaker && std::cos(waves.direction) < 0.0)
     wrong("waves.direction_deg", "must be 0: the paddle stands at the lower end");
   if (o.starts_in_waves() && !waved) wrong("sea.initial.state", "needs [waves]");
+  if (o.initial && o.initial->state == "standing" && waved && wave_models().named(waves.model).nonlinear)
+    wrong("sea.initial.state", "must not be \"standing\" with waves.model '" + waves.model +
+                                   "': two of these that meet are no wave that stands; use 'airy'");
   if (o.starts_in_waves() && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
   if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
     wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
@@ -310,6 +315,14 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     for (const double end : {zone.from_m, zone.to_m})
       if (!(end >= sides[0] && end <= sides[1])) wrong(key, fmt::format("reaches {} = {} m, outside the tank", zone.axis, end));
   }
+  for (std::size_t n = 0; n < o.water.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m) {
+      const Eigen::Vector3d common = o.water[n].high_m.cwiseMin(o.water[m].high_m) - o.water[n].low_m.cwiseMax(o.water[m].low_m);
+      const auto inside = [&](int axis) { return common[axis] > 1e-6 * d; };
+      if (inside(0) && (planar || inside(1)) && inside(2))
+        wrong(fmt::format("sea.water[{}]", n),
+              fmt::format("overlaps sea.water[{}], where there would be water twice; boxes may touch", m));
+    }
   for (std::size_t n = 0; n < o.water.size(); ++n)
     if (o.water[n].high_m[2] <= -depth) wrong(fmt::format("sea.water[{}]", n), fmt::format("lies below the bed at {} m", -depth));
 

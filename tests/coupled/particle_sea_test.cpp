@@ -348,6 +348,65 @@ TEST_CASE("a paddle starts over two periods of its waves where the scene does no
   CHECK(growth(tank, {"sea.initial.state='waves'", "without=['sea.wavemaker.ramp_s']"}) == 0.0);
 }
 
+TEST_CASE("a paddle on a bed of its own makes waves by the depth there", "[coupled][sea][fast]") {
+  const auto harmonics = [](const std::vector<std::string>& overrides) {
+    scene::Document document = scene::load(test::input("validation/wave_tank/small_tank.toml"), overrides);
+    const FloatingSystem floating(read_scenario(document));
+    const auto all = floating.particle_plan()->paddle->harmonics();
+    return std::vector<sph::Wavemaker::Harmonic>(all.begin(), all.end());
+  };
+  const auto shallow = harmonics({"environment.water_depth_m=0.3"}),
+             on_shelf = harmonics({"environment.water_depth_m=0.6", "sea.tank.bed_m=[[0.0, -0.3], [6.0, -0.3], [9.0, -0.6]]"}),
+             deep = harmonics({"environment.water_depth_m=0.6"});
+  REQUIRE(shallow.size() == on_shelf.size());
+  for (std::size_t n = 0; n < shallow.size(); ++n) {
+    CHECK(on_shelf[n].amplitude == Approx(shallow[n].amplitude).epsilon(1e-9));
+    CHECK(on_shelf[n].omega == shallow[n].omega);
+    CHECK(on_shelf[n].phase == Approx(shallow[n].phase).margin(1e-9));
+  }
+  CHECK(std::abs(deep[0].amplitude / shallow[0].amplitude - 1.0) > 0.1);
+}
+
+TEST_CASE("a sea that begins in waves before t = 0 begins in those of then", "[coupled][sea][fast]") {
+  const std::string state = GENERATE("waves", "standing");
+  const double settle_s = 0.6, period = 2.0, amplitude = 0.05, omega = 2.0 * pi / period, spacing = 0.05;
+  FloatingSystem floating(test::scenario_of(R"(
+[time]
+end_s = 1.0
+window_s = 0.1
+[environment]
+gravity_m_s2 = 9.81
+water_density_kg_m3 = 1000.0
+water_depth_m = 1.0
+[waves]
+model = "airy"
+height_m = 0.1
+period_s = 2.0
+phase_deg = 20.0
+[sea]
+model = "sph"
+[sea.particles]
+dimensions = "2"
+spacing_m = 0.05
+[sea.tank]
+x_m = [0.0, 5.2152]
+top_m = 0.5
+sides_x = "periodic"
+[sea.initial]
+settle_s = 0.6
+state = ")" + state + "\"\n"));
+  const waves::Component wave = floating.particle_plan()->waves.front();
+  floating.fill_sea({}, runtime::World{MPI_COMM_SELF, 0, 1});
+  std::vector<std::array<double, 2>> places;
+  for (double x = 0.5; x < 5.0; x += 0.5) places.push_back({x, 0.0});
+  const std::vector<double> read = floating.particles()->surface(places);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const double at = wave.wave_number * places[n][0] + wave.phase, turned = omega * settle_s;
+    const double expected = state == "waves" ? amplitude * std::cos(at + turned) : amplitude * std::cos(at) * std::cos(turned);
+    CHECK(read[n] == Approx(expected).margin(0.3 * spacing));
+  }
+}
+
 TEST_CASE("bad seas of particles are refused by key before anything is made", "[coupled][sea][fast]") {
   CHECK_THAT(refusal(dam, {"sea.particles.spacing_m=1.0"}), Contains("sea.particles.spacing_m") && Contains("fewer than 4"));
   CHECK_THAT(refusal(dam, {"sea.tank.x_m=[4.0, 0.0]"}), Contains("sea.tank.x_m"));
@@ -355,9 +414,18 @@ TEST_CASE("bad seas of particles are refused by key before anything is made", "[
     CHECK_THAT(refusal(dam, {"sea.particles.limits_every=" + every}), Contains("sea.particles.limits_every"));
   CHECK_THAT(refusal(dam, {"sea.probes[0].point_m=[9.0, 0.0, 0.0]"}),
              Contains("sea.probes[0].point_m") && Contains("outside the tank"));
+  CHECK_THAT(
+      refusal(
+          dam,
+          {"sea.water=[{low_m=[0.0, -9.0, -9.0], high_m=[1.0, 9.0, 0.0]}, {low_m=[0.9, -9.0, -9.0], high_m=[1.5, 9.0, -0.5]}]"}),
+      Contains("sea.water[1]") && Contains("overlaps sea.water[0]"));
   CHECK_THAT(refusal(dam, {"time.step_s=0.01"}), Contains("time.step_s") && Contains("speed of sound"));
   CHECK_THAT(refusal(dam, {"waves.model='airy'", "waves.height_m=0.1", "waves.period_s=2.0"}),
              Contains("waves.model") && Contains("wavemaker"));
+  const std::string standing = "validation/standing_wave/standing_wave.toml", tank = "validation/wave_tank/small_tank.toml";
+  CHECK_THAT(refusal(standing, {"waves.model='stokes2'"}), Contains("sea.initial.state") && Contains("stokes2"));
+  CHECK_THAT(refusal(tank, {"sea.tank.bed_m=[[0.0, 0.0], [6.0, -0.3]]"}),
+             Contains("sea.tank.bed_m") && Contains("below still water at the paddle"));
   CHECK_THAT(refusal(dam, {"sea.wavemaker.ramp_s=1.0"}), Contains("sea.wavemaker") && Contains("no wave"));
   CHECK_THAT(refusal(box, {"sea.particles.dimensions='3'"}), Contains("sea.tank.y_m"));
   CHECK_THAT(refusal(dam, {"sea.particles.walls='modified'", "sea.tank.bed_m=[[0.0, -2.0], [4.0, -1.5]]"}),
