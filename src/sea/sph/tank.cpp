@@ -83,8 +83,8 @@ void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, dou
   Eigen::Vector3d x = to_earth<dim>(seed.position), v = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
   for (const waves::Component& c : waves) {
     const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
-    const double psi = c.wave_number * along.dot(x) + c.phase, kz = c.wave_number * (x[2] + depth), kh = c.wave_number * depth;
-    const double horizontal = std::cosh(kz) / std::sinh(kh), vertical = std::sinh(kz) / std::sinh(kh);
+    const double psi = c.wave_number * along.dot(x) + c.phase;
+    const auto [horizontal, vertical] = over_sinh(c.wave_number, x[2], depth);
     const double displacement = c.speed_amplitude / c.angular_frequency;
     way += displacement * (-horizontal * std::sin(psi) * along + vertical * std::cos(psi) * Eigen::Vector3d::UnitZ());
     v += c.speed_amplitude * (horizontal * std::cos(psi) * along + vertical * std::sin(psi) * Eigen::Vector3d::UnitZ());
@@ -262,10 +262,9 @@ class Layout {
   /// How far water may be from its place of the lattice: moved by waves, aside by bodies, and by jitter [m].
   double farthest_off_lattice() const {
     double far = (1.0 + plan_.jitter) * p_.spacing;
-    const double top = std::max(0.0, surface_of_scene()) + plan_.depth;
+    const double top = std::max(0.0, surface_of_scene());
     for (const waves::Component& c : plan_.waves)
-      far += std::abs(c.speed_amplitude / c.angular_frequency) * std::cosh(c.wave_number * top) /
-             std::sinh(c.wave_number * plan_.depth);
+      far += std::abs(c.speed_amplitude / c.angular_frequency) * over_sinh(c.wave_number, top, plan_.depth)[0];
     return far;
   }
 
