@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <tuple>
@@ -57,6 +58,10 @@ std::vector<double> form_of(const io::CheckpointReader& file, const coupling::Co
   form[0] = double(file.integer("coupling/scheme"));
   return form;
 }
+
+/// At which the memory of a convolution is sampled.
+constexpr const char* step_of_bodies = "bodies/step_s";
+double step_s(const coupling::Timeline& timeline) { return timeline.window_s() / double(timeline.steps_per_window()); }
 
 /// Null where no library controls the rotor.
 aero::BladedLibrary* library_of(const coupling::FloatingSystem& floating) {
@@ -235,6 +240,15 @@ std::int64_t SystemSimulation::take_over() {
   const std::vector<double> work = std::exchange(state_.work, {});
   if (bodies.size() != state_.packed_size() + std::size_t(file.integer("bodies/works")))
     refuse("its bodies and joints are not those of this scene");
+  const auto& potential = floating_.scenario().sea.potential;
+  if (potential && potential->radiation == "convolution" && file.has(step_of_bodies)) {
+    const double was = file.number(step_of_bodies), is = step_s(timeline);
+    if (std::abs(was - is) > 1e-9 * is)
+      refuse(
+          fmt::format("its water remembers the bodies at steps of {:g} s (sea.potential.radiation \"convolution\"), here they "
+                      "are of {:g} s",
+                      was, is));
+  }
   state_.unpack(std::span(bodies).first(state_.packed_size()));
   state_.work = work;
   state_.tick = timeline.tick_of_window(*windows);
@@ -284,6 +298,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   copy.set("steps", steps_);
   copy.write<double>("bodies/state", packed);
   copy.set("bodies/works", std::int64_t(state_.work.size()));
+  copy.set(step_of_bodies, step_s(floating_.timeline()));
   if (const std::vector<double> history = window_.history(); !history.empty()) {
     copy.write<double>("coupling/form", form_of(floating_.scenario().coupling));
     copy.write<double>("coupling/history", history);
