@@ -216,7 +216,12 @@ const scene::Section<FlowOptions>& flow_section() {
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool transports = o.viscous != "none" && model_sweeps(o.turbulence).equations > 0;
             for (const PatchOptions& b : o.boundaries)
-              if (of(b.condition).wall_law && !transports)
+              if (o.viscous == "none" && sticks(b.condition))
+                report("boundaries",
+                       fmt::format("patch \"{}\": \"{}\" has no effect on inviscid air, which slips along walls: "
+                                   "take condition = \"slip\"{}, or viscous = \"thin_layer\" or \"full\"",
+                                   b.patch, of(b.condition).name, b.temperature_K ? " and leave out temperature_K" : ""));
+              else if (of(b.condition).wall_law && !transports)
                 report("boundaries", fmt::format("patch \"{}\": \"{}\" goes with turbulence that is modelled, not \"{}\"",
                                                  b.patch, of(b.condition).name, o.turbulence));
             if (of(o.blades).wall_law && !transports)

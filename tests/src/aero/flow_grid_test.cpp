@@ -140,3 +140,13 @@ TEST_CASE("closures are chosen by name, and refused with what is allowed", "[flo
   CHECK_THROWS_WITH(patch_conditions(plane, make_tiling(flow_grid(plane), {}, {})),
                     Contains("les_wale") && Contains("three dimensions"));
 }
+
+TEST_CASE("walls that stick are refused in inviscid air, with what to take", "[flow][fast]") {
+  const std::string grid =
+      "viscous = 'none'\n[aero.flow.generate]\nkind = 'cylinder'\n[[aero.flow.boundaries]]\npatch = 'wall'\n";
+  CHECK_NOTHROW(read(grid + "condition = 'slip'\n"));
+  CHECK_THROWS_WITH(read(grid + "condition = 'no_slip'\n"),
+                    Contains("aero.flow.boundaries") && Contains("\"wall\"") && Contains("take condition = \"slip\","));
+  CHECK_THROWS_WITH(read(grid + "condition = 'wall_function'\n"), Contains("take condition = \"slip\""));
+  CHECK_THROWS_WITH(read(grid + "condition = 'no_slip'\ntemperature_K = 300\n"), Contains("and leave out temperature_K"));
+}
