@@ -16,7 +16,7 @@ namespace {
 constexpr double cells_of_width = 2.0;
 constexpr double cells_of_wave = 8.0;  ///< of the shortest that the scheme of second order carries over a diameter
 
-Eigen::Vector3d way_of(const WindOptions& wind) { return {std::cos(wind.direction), std::sin(wind.direction), 0.0}; }
+Eigen::Vector3d way_of(const WindOptions& wind) { return blowing(starting_direction(wind), 0.0); }
 
 /// Longest extent along the normal of the cells that the plane passes through within a radius; zero where there are none.
 double longest_at(const GridStore& store, const InflowPlane& plane, double radius, MPI_Comm comm) {
@@ -77,6 +77,25 @@ UndisturbedWind ChangingWind::until(double t) const {
     return (wind.carrier() + 0.5 * gust.dot(normal)) * gust;
   };
   return {common, plane};
+}
+
+UndisturbedWind ChangingWind::at_start() const {
+  if (wind_.steady()) return {};
+  return {[wind = wind_](const Eigen::Vector3d& place, double) { return wind.common(0.0, place); }, {}};
+}
+
+void ChangingWind::begin(std::span<FlowTile> tiles,
+                         const std::function<Eigen::Vector3d(const Eigen::Vector3d& place)>& from) const {
+  if (wind_.steady()) return;
+  add_velocity(tiles, [&](const Eigen::Vector3d& x) -> Eigen::Vector3d { return wind_.common(0.0, x) - from(x); });
+}
+
+void ChangingWind::begin(FlowSolver& solver) const {
+  const FlowSetting& s = solver.setting();
+  begin(solver.tiles(), [&s](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    const gas::Primitive<double> stream = stream_at(s.stream, s.profile, x.z());
+    return {stream.u, stream.v, stream.w};
+  });
 }
 
 std::string ChangingWind::description() const {

@@ -53,7 +53,7 @@ WindTable read_wind_table(const std::string& path) {
 class WindInTime {
  public:
   WindInTime(const WindOptions& options, const WindSite& site)
-      : speed_(starting_speed(options)), direction_(options.direction), site_(site) {
+      : speed_(starting_speed(options)), direction_(starting_direction(options)), incidence_(options.incidence), site_(site) {
     if (!options.table.empty()) table_ = read_wind_table(options.table);
     if (options.event) {
       event_ = *options.event;
@@ -66,7 +66,7 @@ class WindInTime {
   Eigen::Vector3d at(double t, const Eigen::Vector3d& point, const WindProfile& profile) const {
     const Uniform u = uniform(t);
     const double added = u.added + shear(t, u.direction, point);
-    if (!has_box()) return (profile.share(point.z()) * u.speed + added) * along(u.direction) + u.vertical * up();
+    if (!has_box()) return (profile.share(point.z()) * u.speed + added) * blowing(u.direction, incidence_) + u.vertical * up();
     const Eigen::Vector3d gust = box_.at(time_in_box(t, point), across(direction_).dot(point - site_.hub), point.z());
     const double mean = box_.has_mean ? 0.0 : profile.share(point.z()) * u.speed + added;
     return (mean + gust.x()) * along(u.direction) + gust.y() * across(u.direction) + (u.vertical + gust.z()) * up();
@@ -78,7 +78,7 @@ class WindInTime {
     const double added = u.added + share_beside(side, z) * shear(t, u.direction, held_inside(side, z, u.direction));
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     if (has_box()) mean = mean_of_planes_.at(time_in_box(t, site_.hub), 0.0, 0.0);
-    return (profile.share(z) * u.speed + added + mean.x()) * along(u.direction) + mean.y() * across(u.direction) +
+    return (profile.share(z) * u.speed + added + mean.x()) * blowing(u.direction, incidence_) + mean.y() * across(u.direction) +
            (u.vertical + mean.z()) * up();
   }
 
@@ -96,7 +96,7 @@ class WindInTime {
   double carrier() const { return box_.wind; }
 
  private:
-  static Eigen::Vector3d along(double direction) { return {std::cos(direction), std::sin(direction), 0.0}; }
+  static Eigen::Vector3d along(double direction) { return blowing(direction, 0.0); }
   static Eigen::Vector3d across(double direction) { return {-std::sin(direction), std::cos(direction), 0.0}; }
   static Eigen::Vector3d up() { return Eigen::Vector3d::UnitZ(); }
 
@@ -224,7 +224,7 @@ class WindInTime {
                  site_.across > 0.0 ? fmt::format(", whose hubs are {:.4g} m apart across the wind", site_.across) : ""));
   }
 
-  double speed_, direction_, start_ = 0.0;
+  double speed_, direction_, incidence_, start_ = 0.0;
   WindSite site_;
   WindTable table_;
   std::optional<WindEventOptions> event_;
@@ -246,6 +246,12 @@ double starting_speed(const WindOptions& wind) {
   return wind.speed_m_s;
 }
 
+double starting_direction(const WindOptions& wind) {
+  if (wind.table.empty()) return wind.direction;
+  const std::vector<double> directions = read_wind_table(wind.table).direction;
+  return directions.empty() ? wind.direction : directions.front();
+}
+
 double greatest_speed(const WindOptions& wind) {
   return wind.table.empty() ? starting_speed(wind) : std::ranges::max(read_wind_table(wind.table).speed);
 }
@@ -259,11 +265,11 @@ bool turns(const WindOptions& wind) {
   const auto changes = [](const std::vector<double>& column, double from) {
     return std::ranges::any_of(column, [from](double v) { return v != from; });
   };
-  return changes(table.direction, wind.direction) || changes(table.vertical, 0.0);
+  return (!table.direction.empty() && changes(table.direction, table.direction.front())) || changes(table.vertical, 0.0);
 }
 
 Wind wind_of(const WindOptions& wind, const WindSite& site) {
-  Wind made{starting_speed(wind) * Eigen::Vector3d(std::cos(wind.direction), std::sin(wind.direction), 0.0), wind_profile(wind)};
+  Wind made{starting_speed(wind) * blowing(starting_direction(wind), wind.incidence), wind_profile(wind)};
   if (!wind.steady()) made.in_time = std::make_shared<const WindInTime>(wind, site);
   return made;
 }

@@ -39,6 +39,11 @@ struct Wind {
   Eigen::Vector3d changing(double t, const Eigen::Vector3d& point) const;
 };
 
+/// Unit vector; angles as of WindOptions.
+inline Eigen::Vector3d blowing(double direction, double incidence) {
+  return {std::cos(incidence) * std::cos(direction), std::cos(incidence) * std::sin(direction), std::sin(incidence)};
+}
+
 inline WindProfile wind_profile(const WindOptions& wind) {
   return {wind.law, wind.reference_height_m.value_or(1.0), wind.least_height_m, wind.shear_exponent, wind.roughness_m};
 }
@@ -55,6 +60,8 @@ Wind wind_of(const WindOptions& wind, const WindSite& site);
 
 /// The speed that the scene's wind begins with, from its files where those say so [m/s].
 double starting_speed(const WindOptions& wind);
+/// Likewise where it blows to [rad].
+double starting_direction(const WindOptions& wind);
 /// Of its table, or that which it begins with: before events and turbulence [m/s].
 double greatest_speed(const WindOptions& wind);
 

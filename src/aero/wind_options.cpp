@@ -168,8 +168,7 @@ const scene::Section<WindOptions>& wind_section() {
           .only_if("profile", sheared)
           .path("table", &WindOptions::table,
                 "CSV file with time_s, speed_m_s and, if any, direction_deg, vertical_m_s, joined by straight lines: takes the "
-                "place "
-                "of speed_m_s, which is its first row.")
+                "place of speed_m_s and, where it has directions, direction_deg, which are its first row.")
           .table("event", &WindOptions::event, wind_event_section(), "A gust or another change.")
           .table("turbulence", &WindOptions::turbulence, turbulence_section(), "Turbulence.")
           .at_most_one_of({"table", "event"})

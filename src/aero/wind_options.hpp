@@ -53,6 +53,7 @@ struct TurbulenceOptions {
 struct WindOptions {
   double speed_m_s = 0.0;  ///< at the reference height
   double direction = 0.0;  ///< where it blows to, from +x towards +y [rad]
+  double incidence = 0.0;  ///< by which it blows upwards: aero.flow.incidence_deg [rad]
   WindLaw law = WindLaw::uniform;
   std::optional<double> reference_height_m;
   double least_height_m = 10.0, shear_exponent = 0.14, roughness_m = 2e-4;

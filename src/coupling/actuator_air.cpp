@@ -140,6 +140,7 @@ class ActuatorAir final : public MarchingAir {
         conditions_);
     solver->start_uniform();
     runtime::Graph geometry(world_.comm);
+    wind().begin(*solver);
     solver->record_geometry(geometry);
     runtime::Executor(std::move(geometry), {.threads = 1}).run();
     return solver;
@@ -164,6 +165,7 @@ class ActuatorAir final : public MarchingAir {
     held.hub_velocity.setZero(), held.omega = state_.speed * state_.axis;
     const std::shared_ptr<aero::Actuator> disc = actuator_of(mean, held);
     solver->set_body_force(disc);
+    solver->set_wind(wind().at_start());
     spdlog::info("air settles for {} pseudo-steps behind the held rotor's disc: {} cells", steps, solver->cells());
     runtime::Graph graph(world_.comm);
     solver->record(graph);

@@ -70,6 +70,7 @@ class MarchingAir : public AirSide {
   void choose();
   /// At the end of make(); and its line for the log, once.
   void place_wind() { wind_.place(solver_->grid(), world_.comm); }
+  const aero::ChangingWind& wind() const { return wind_; }
   void tell_wind();
   /// Until start.air_steps are made, from the CFL number of this retry.
   void settle(const SteadyMarch& march, int retry);

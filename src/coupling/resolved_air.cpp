@@ -102,9 +102,10 @@ class ResolvedAir final : public MarchingAir {
     if (!rotor_) make_timed();
     tell_size();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
-    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest of the profile is added to
-    // its flow.
-    if (settles && !setup_.profile.uniform())
+    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest is added to its flow.
+    if (settles && !wind().steady())
+      wind().begin(solver_->tiles(), [from = settling_wind()](const Eigen::Vector3d&) { return from; });
+    else if (settles && !setup_.profile.uniform())
       aero::add_velocity(solver_->tiles(), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
         return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
       });
@@ -142,6 +143,7 @@ class ResolvedAir final : public MarchingAir {
     rotor_ = aero::ResolvedRotor::on(world_, setup_, 0, std::move(grid_), grid_progress(), rank_of_tile_);
     solver_ = &rotor_->solver();
     solver_->start_uniform();
+    wind().begin(*solver_);
     place_at(state_, setup_.dt);
     runtime::Graph geometry(world_.comm);
     solver_->record_geometry(geometry);
@@ -189,6 +191,12 @@ class ResolvedAir final : public MarchingAir {
   }
 
   double share_at_hub() const { return setup_.profile.share(frame_.start.hub.z()); }
+  /// Of the wind of t = 0 at the hub what blows along the axis: seen from the turning rotor no other flow is steady.
+  Eigen::Vector3d settling_wind() const {
+    if (wind().steady()) return share_at_hub() * setup_.wind;
+    const Eigen::Vector3d& axis = frame_.start.axis;
+    return axis.dot(wind().at_start().velocity(frame_.start.hub, 0.0)) * axis;
+  }
 
   /// Looked through once for the solver that settles and the one that moves: ten core-seconds at the paper's size.
   const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
@@ -205,7 +213,7 @@ class ResolvedAir final : public MarchingAir {
     steady.dt = 0.0;
     steady.flow.preconditioner = preconditioner_;
     steady.flow.time = "steady", steady.flow.max_pseudo_steps = steps, steady.flow.drop = 0.0, steady.flow.load_change = 0.0;
-    steady.profile = {}, steady.wind *= share_at_hub();
+    steady.profile = {}, steady.wind = settling_wind();
     const int piece = settling_piece(double(size_.cells), steps);  // a large grid shows life in the log
     const std::unique_ptr<aero::ResolvedRotor> held = aero::ResolvedRotor::on(world_, steady, piece, grid(), grid_progress());
     spdlog::info("air settles for {} pseudo-steps round the held hub: {} cells", steps, held->solver().cells());

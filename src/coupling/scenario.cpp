@@ -241,6 +241,8 @@ void check_changing_wind(scene::Document& document, const Scenario& s) {
     return document.problem("wind", "must be steady in resolved air without a rotor: " + leave_out);
   if (s.aero.flow->time == "steady")
     return document.problem("wind", "must be steady where aero.flow.time is \"steady\": take \"bdf2\", or " + leave_out);
+  if (s.wind.turbulence && s.aero.flow->incidence != 0.0)
+    document.problem("aero.flow.incidence_deg", "must be 0 with wind.turbulence: a box of turbulence blows level past the rotor");
   if (has_resolved_rotor(s) && s.aero.grid->sectors != "all") {
     const std::string take = ": take aero.grid.sectors = \"all\"";
     if (aero::turns(s.wind)) document.problem("wind", "must keep its direction with one sector of blades" + take);
@@ -372,8 +374,7 @@ std::span<const scene::SectionBase* const> all_sections() {
 }
 
 Eigen::Vector3d flow_wind(const Scenario& s) {
-  const double up = s.aero.flow ? s.aero.flow->incidence : 0.0, along = s.wind.speed_m_s * std::cos(up);
-  return {along * std::cos(s.wind.direction), along * std::sin(s.wind.direction), s.wind.speed_m_s * std::sin(up)};
+  return s.wind.speed_m_s * aero::blowing(s.wind.direction, s.aero.flow ? s.aero.flow->incidence : 0.0);
 }
 
 double rotor_radius(const Scenario& s) {
@@ -472,7 +473,8 @@ Scenario read_scenario(scene::Document& document) {
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do", "aero.model");
   try {
-    s.wind.speed_m_s = aero::starting_speed(s.wind);
+    s.wind.speed_m_s = aero::starting_speed(s.wind), s.wind.direction = aero::starting_direction(s.wind);
+    if (s.resolves_air()) s.wind.incidence = s.aero.flow->incidence;
     if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);
     if (s.wind.turbulence && s.wind.turbulence->inflow_plane_m && !s.resolves_air())
       document.problem("wind.turbulence.inflow_plane_m", "has no effect on blade elements, which take the box as it is");

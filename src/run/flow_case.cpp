@@ -185,7 +185,10 @@ void FlowCase::place_wind(MPI_Comm comm) {
 /// The flow that aero.flow.start names: the wind, air at rest, or a Taylor-Green vortex.
 void FlowCase::begin(const std::string& start) {
   const aero::FlowSetting& s = solver_->setting();
-  if (start == "wind") return solver_->start_uniform();
+  if (start == "wind") {
+    solver_->start_uniform();
+    return wind_.begin(*solver_);
+  }
   const double rho = gas::density(s.gas, gas::Primitive<double>{}), U = s.speed;
   solver_->start([&](const Eigen::Vector3d& x) {
     if (start == "rest") return gas::Primitive<double>{};

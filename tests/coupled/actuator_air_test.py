@@ -1,5 +1,6 @@
 """Actuator disc and lines in resolved air whose turbine stands on bodies: the flow of the same rotor without bodies where they do not move, same bits
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
+import math
 import unittest
 
 from running import AIR_OF_LINES, DTU_IN_WIND, ROOT, Runs, rows
@@ -83,6 +84,44 @@ class ActuatorAir(Runs):
             self.assertGreater(rise[0.9], 1.08)
             self.assertLess(rise[1.5], 1.25)
         self.assertAlmostEqual(self.rows("held_gust")[-1]["rotor.thrust_N"] / self.rows("alone_gust")[-1]["rotor.thrust_N"], 1.0, delta=1e-9)
+
+    def test_a_wind_that_changes_begins_as_that_of_the_first_instant(self):
+        drop = "aero.flow.drop=1e-6"
+        table = self.path / "table.csv"
+        for rows_of, settings in (("speed_m_s,direction_deg\n0,%s,20\n100,%s,20" % (11.0, 11.0), ["wind.speed_m_s=11.0", "wind.direction_deg=20.0"]),
+                                  ("speed_m_s,vertical_m_s\n0,%s,2\n100,%s,2" % (11.0, 11.0), ["wind.speed_m_s=%.17g" % math.hypot(11.0, 2.0), "aero.flow.incidence_deg=%.17g" % math.degrees(math.atan2(2.0, 11.0))])):
+            table.write_text("time_s," + rows_of + "\n")
+            for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
+                with self.subTest(name=name, table=rows_of):
+                    self.run_scene(text, name + "_table", "--overwrite", settings=[drop, f"wind.table={table}"])
+                    self.run_scene(text, name, "--overwrite", settings=[drop, *settings])
+                    for a, b in zip(self.rows(name + "_table")[1:], self.rows(name)[1:]):
+                        self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-5)
+                        self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-5)
+
+    def test_a_step_at_the_start_is_the_higher_wind(self):
+        for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
+            with self.subTest(name):
+                self.run_scene(text, name + "_step", settings=["wind.event={what='step', start_s=0.0, speed_change_m_s=2.0}", "wind.speed_m_s=9.0"])
+                self.run_scene(text, name, settings=["wind.speed_m_s=11.0"])
+                first = [next(r for r in self.rows(run) if r["time_s"] > 0.0)["rotor.thrust_N"] for run in (name + "_step", name)]
+                self.assertAlmostEqual(first[0] / first[1], 1.0, delta=1e-2)
+
+    def test_an_incidence_is_in_winds_that_change_and_in_their_columns(self):
+        late = "wind.event={what='step', start_s=100.0, speed_change_m_s=2.0}"
+        for text, name in ((HELD, "held"), (ALONE, "alone")):
+            self.run_scene(text, name, settings=["aero.flow.incidence_deg=8.0"])
+            self.run_scene(text, name + "_late", settings=["aero.flow.incidence_deg=8.0", late])
+            a, b = self.rows(name)[-1], self.rows(name + "_late")[-1]
+            self.assertAlmostEqual(b["rotor.thrust_N"] / a["rotor.thrust_N"], 1.0, delta=1e-9)
+        self.assertAlmostEqual(self.rows("held")[-1]["rotor.wind_z_m_s"] / self.rows("held")[-1]["rotor.wind_x_m_s"], math.tan(math.radians(8.0)), delta=1e-5)
+        said = self.run_scene(ALONE, "box", settings=["aero.flow.incidence_deg=8.0", "wind.turbulence={model='kaimal', duration_s=60}"], code=2)
+        self.assertIn("aero.flow.incidence_deg", said)
+
+    def test_pseudo_steps_that_are_too_few_end_the_run_at_once(self):
+        said = self.run_scene(HELD, "run", settings=["aero.flow.max_pseudo_steps=1", "aero.flow.drop=1e-6", "aero.flow.unconverged_share=0.0"], code=3)
+        self.assertIn("1 of 1 steps spent their 1 pseudo-steps", said)
+        self.assertNotIn("is made again", said)
 
     def test_air_and_sea_on_ranks_of_their_own(self):
         self.run_scene(FLOATING, "shared")

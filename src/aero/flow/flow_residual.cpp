@@ -175,7 +175,7 @@ void FlowResidual::evaluate(FlowTile& tile, double* state, double* residual) con
           residual[at + i] -= tile.geometry->volume_data.data()[cells.at(k, j, i)] * tile.source.data()[at + i];
       });
   }
-  if (!boundary_.wind.steady()) add_driving(tile, state, residual);
+  if (!boundary_.wind.steady() && tile.driving.size() > 0) add_driving(tile, state, residual);  // none where flow settles
   if (boundary_.turning) add_turning(tile, state, residual);
   if (time_.unsteady()) add_time_derivative(tile, state, residual);
 }

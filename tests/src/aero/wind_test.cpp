@@ -36,6 +36,19 @@ TEST_CASE("before every event the wind is the steady one", "[aero][fast]") {
   CHECK((wind_of(options, site).at(25.0, point) - wind_of(steady, site).at(0.0, point)).norm() > 0.1);
 }
 
+TEST_CASE("a wind that blows upwards does so in all that changes", "[aero][fast]") {
+  WindOptions options{.speed_m_s = 10.0, .direction = 0.3, .incidence = 8.0 * radians_per_degree};
+  const double rise = std::sin(options.incidence);
+  const Wind steady = wind_of(options, site);
+  CHECK(steady.at(0.0, hub).z() == Approx(10.0 * rise));
+  options.event = WindEventOptions{.what = WindEvent::step, .start_s = 20.0, .speed_change_m_s = 2.0};
+  const Wind step = wind_of(options, site);
+  CHECK((step.at(1.0, hub) - steady.at(1.0, hub)).norm() < 1e-12);
+  CHECK((step.common(1.0, hub) - steady.at(1.0, hub)).norm() < 1e-12);
+  CHECK(speed(step, 21.0) == Approx(12.0));
+  CHECK(step.at(21.0, hub).z() == Approx(12.0 * rise));
+}
+
 TEST_CASE("a step steps, a ramp ramps, both turn the wind as asked", "[aero][fast]") {
   WindOptions options{.speed_m_s = 10.0};
   options.event = WindEventOptions{.what = WindEvent::ramp,
@@ -73,6 +86,12 @@ TEST_CASE("a table in time is joined by straight lines and begins the wind", "[a
   CHECK(wind.at(5.0, hub).head<2>().norm() == Approx(10.0));
   CHECK(direction(wind, 5.0) == Approx(10.0));
   CHECK(wind.at(99.0, hub).head<2>().norm() == Approx(12.0));
+  CHECK(turns(options));
+
+  std::ofstream(path) << "time_s,speed_m_s,direction_deg\n0,8,30\n10,12,30\n";  // which direction_deg need not say
+  CHECK(starting_direction(options) == Approx(30.0 * radians_per_degree));
+  CHECK((wind_of(options, site).velocity - wind_of(options, site).at(0.0, hub)).norm() < 1e-12);
+  CHECK(!turns(options));
 
   std::ofstream(path) << "time_s,speed_m_s,direction_deg\n0,8,359\n10,8,1\n";  // across north
   CHECK_THROWS_WITH(wind_of(options, site), Contains(":3: direction_deg goes from 359 to 1") && Contains("write 361"));
