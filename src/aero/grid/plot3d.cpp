@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "kernels/grid/metrics.hpp"
 #include "src/aero/grid/index_map.hpp"
 #include "src/scene/error.hpp"
 
@@ -74,16 +73,9 @@ void add_block(MultiBlockGrid& grid, const std::filesystem::path& file, const In
   if (dimensions == 3) {
     for (std::size_t p = 0; p < nodes; ++p) block.nodes.push_back({x[p], x[nodes + p], x[2 * nodes + p]});
   } else {
+    // The same way for all, so that neighbours meet: blocks whose (i, j) turn clockwise seen from -y are left-handed.
     for (const double y : {0.0, -width})
       for (std::size_t p = 0; p < nodes; ++p) block.nodes.push_back({x[p], y, x[nodes + p]});
-    // Where (i, j) turn clockwise seen from -y, k runs along +y instead.
-    double area = 0.0;
-    const auto corner = [&](int j, int i) { return block.nodes[block.node(0, j, i)]; };
-    for (int j = 0; j < block.nj; ++j)
-      for (int i = 0; i < block.ni; ++i)
-        area -= face_vector({corner(j, i), corner(j, i + 1), corner(j + 1, i + 1), corner(j + 1, i)}).y();
-    if (area < 0)
-      for (Eigen::Vector3d& node : block.nodes) node.y() = -node.y();
   }
   grid.planar = dimensions == 2;
   grid.blocks.push_back(std::move(block));

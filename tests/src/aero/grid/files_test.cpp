@@ -187,8 +187,9 @@ TEST_CASE("formatted files may repeat numbers, use D exponents and turn the othe
   const MultiBlockGrid grid = read_plot3d(file.path);
   CHECK(grid.blocks[0].nodes[3] == Vector3d(1, 0, 0));
   MultiBlockGrid closed = grid;
+  make_right_handed(closed);
   connect_by_coordinates(closed);
-  CHECK(grid_faults(closed).empty());  // positive volumes: k runs along +y
+  CHECK(grid_faults(closed).empty());
 }
 
 TEST_CASE("left-handed blocks get i and j exchanged with all their windows", "[aero][grid][fast]") {
@@ -201,6 +202,21 @@ TEST_CASE("left-handed blocks get i and j exchanged with all their windows", "[a
   CHECK(!grid_faults(left).empty());
   read_neutral_map(back, map.path);
   CHECK(grid_faults(back).empty());
+}
+
+TEST_CASE("planar blocks that turn both ways meet", "[aero][grid][fast]") {
+  const BoxOptions box{.ni = 6, .nj = 7};
+  const MultiBlockGrid right = turned_box(perturbed(planar_box(box), box, 0.05), 21);
+  MultiBlockGrid left = right;
+  REQUIRE(left.blocks.size() > 1);
+  reorient(left, 1, {2, 1, 3});
+  const ScratchFile coordinates("both.p3d"), map("both.nmf");
+  write_plot3d(left, coordinates.path, Plot3dForm::binary), write_neutral_map(left, map.path);
+  MultiBlockGrid back = read_plot3d(coordinates.path);
+  read_neutral_map(back, map.path);
+  CHECK(grid_faults(back).empty());
+  CHECK(same_nodes(right, back));
+  check_same_topology(right, back);
 }
 
 TEST_CASE("blocks are joined by their coordinates where no map is given", "[aero][grid][fast]") {
