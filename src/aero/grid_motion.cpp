@@ -82,6 +82,7 @@ GridMotion::GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& opti
       refuse(".patches", fmt::format("the grid has no patch \"{}\"; it has: {}", p, fmt::join(known, ", ")));
   if (std::ranges::any_of(grid.connections, [](const Connection& c) { return c.periodic.has_value(); }))
     refuse("", "does not go with a grid that repeats itself: its periods would have to move with it");
+  if (grid.planar) check_plane();
   if (options.grid == "rigid") return;
   check_patches(sliding);
   if (!held.empty()) {
@@ -97,6 +98,15 @@ GridMotion::GridMotion(const MultiBlockGrid& grid, const GridMotionOptions& opti
   check_cells(0.0);
   if (options.oscillates())
     for (int n = 1; n < 8; ++n) check_cells(0.5 * n * quarter);
+}
+
+/// A planar grid keeps to its plane, the x-z plane.
+void GridMotion::check_plane() const {
+  const Eigen::Vector3d axis = this->axis(), heave = vector_of(options_.heave_m);
+  if ((options_.pitch != 0.0 || options_.pitch_amplitude != 0.0) && std::hypot(axis.x(), axis.z()) > 1e-6)
+    refuse(".axis", "must be along y: the grid is two-dimensional and lies in the x-z plane");
+  if (std::abs(heave.y()) > 1e-6 * heave.norm())
+    refuse(".heave_amplitude_m", "must have no y component: the grid is two-dimensional and lies in the x-z plane");
 }
 
 /// A patch that keeps to its plane must see no motion across it.

@@ -38,6 +38,7 @@ class GridMotion {
   const std::vector<std::vector<double>>& shares() const { return shares_; }  ///< by block and node; empty where all move as one
 
  private:
+  void check_plane() const;
   void check_patches(const std::vector<std::string>& sliding) const;
   void check_cells(double t) const;
 

@@ -176,3 +176,16 @@ TEST_CASE("motions that a grid cannot follow are refused with the reason", "[gri
   o.axis = {1.0, 0.0, 0.0};
   CHECK_THROWS_WITH(GridMotion(wing, o, outer, {"sides"}), Catch::Contains("out of its plane"));
 }
+
+TEST_CASE("a planar grid keeps to its plane", "[flow][fast]") {
+  const MultiBlockGrid grid = naca0012({.n = 1});
+  for (const char* way : {"rigid", "elliptic"}) {
+    GridMotionOptions o = pitching(5.0);
+    o.grid = way, o.axis = {0.0, -2.0, 0.0};
+    CHECK_NOTHROW(GridMotion(grid, o, outer, {}));
+    o.axis = {1.0, 0.0, 0.0};
+    CHECK_THROWS_WITH(GridMotion(grid, o, outer, {}), Catch::Contains("aero.flow.motion.axis") && Catch::Contains("along y"));
+    o.axis = {0.0, 1.0, 0.0}, o.heave_m = {0.0, 0.1, 0.1};
+    CHECK_THROWS_WITH(GridMotion(grid, o, outer, {}), Catch::Contains("aero.flow.motion.heave_amplitude_m"));
+  }
+}
