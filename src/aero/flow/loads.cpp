@@ -10,7 +10,8 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile.
+/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile. At a wall with a wall
+/// function pressure includes the turbulence's push, 2/3 rho k of two equations, and friction is along the wall.
 template <class Body>
 void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {
   for (const FlowBoundary& boundary : tile.boundaries) {
@@ -19,11 +20,17 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
     for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+      double p = wall_pressure(tile, state, side, k, j, i);
       if (viscous.active && sticks(*boundary.condition)) {
         const gas::Conserved<double> flux = wall_friction(tile, state, viscous, side, k, j, i);
         friction = {flux.mx, flux.my, flux.mz};
+        if (boundary.condition->wall_law) {
+          const Eigen::Vector3d n(f.nx, f.ny, f.nz);
+          const double push = friction.dot(n);
+          friction -= push * n, p += push / f.area;
+        }
       }
-      body(boundary, k, j, i, f, wall_pressure(tile, state, side, k, j, i), friction);
+      body(boundary, k, j, i, f, p, friction);
     });
   }
 }
@@ -93,8 +100,7 @@ void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting
               const double rho = gas::density(setting.gas, q),
                            mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
               const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
-              const Eigen::Vector3d n(f.nx, f.ny, f.nz),
-                  shear = friction - friction.dot(n) * n;  // 2/3 rho k pushes on walls with a wall function
+              const Eigen::Vector3d n(f.nx, f.ny, f.nz), shear = friction - friction.dot(n) * n;
               if (viscous.active) {
                 point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
                 point.growth = growth_of_line(tile, boundary.where.side, {i, j, k}, point.y_plus, distance);

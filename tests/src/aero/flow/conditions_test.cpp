@@ -91,3 +91,33 @@ TEST_CASE("a wall with a wall function, or no wall, is not held at a temperature
   const PatchCondition warm{.condition = Condition::slip, .temperature = 300.0};
   CHECK_THROWS_AS(Case(cartesian_box(box), air(0.1), {{"i_min", warm}}), std::invalid_argument);
 }
+
+TEST_CASE("friction of a wall function is along the wall, the turbulence's push counts as pressure", "[flow][fast]") {
+  FlowSetting s = air(0.1);
+  s.viscous = true, s.turbulence = "sst", s.wind_eddy_viscosity = 100.0, s.wind_intensity = 0.1;
+  s.march.max_steps = 3;
+  const PatchCondition open{Condition::far_field, false};
+  Case c(planar_box({.ni = 8, .nj = 8}), s,
+         {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"j_min", {.condition = Condition::wall_function, .loads = true}}});
+  c.prepare();
+  c.run();
+  double push = 0.0, gas_push = 0.0, drag = 0.0;
+  for (const FlowTile& tile : c.solver->tiles()) {
+    for (const WallPoint& p : c.solver->wall_points(tile)) {
+      REQUIRE(std::hypot(p.traction[0], p.traction[1]) > 0.0);
+      CHECK(std::abs(p.traction[2]) < 1e-12 * std::abs(p.traction[0]));
+      push += p.pressure * p.area, drag += p.traction[0] * p.area;
+    }
+    for (const FlowBoundary& b : tile.boundaries)
+      if (of(Condition::wall_function).name == b.condition->name)
+        for_window(tile, b.where.side, b.where.low, b.where.high, [&](int k, int j, int i) {
+          gas_push += wall_pressure(tile, tile.state.data(), b.where.side, k, j, i) *
+                      outward_face(*tile.geometry, b.where.side, k, j, i).area;
+        });
+  }
+  CHECK(push > gas_push + 1e-3 * std::abs(drag));
+  const PatchLoads loads = c.solver->judgement().patch(c.store->tiling().patch("j_min"));
+  CHECK(std::abs(loads.pressure_force[2]) == Approx(std::abs(push)));
+  CHECK(loads.viscous_force[0] == Approx(drag));
+  CHECK(std::abs(loads.viscous_force[2]) < 1e-12 * std::abs(drag));
+}
