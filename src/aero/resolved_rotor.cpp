@@ -188,8 +188,7 @@ RotorLoad ResolvedRotor::about_hub(const Eigen::Vector3d& force, const Eigen::Ve
 }
 
 RotorLoad ResolvedRotor::load(const PseudoRow& row) const {
-  return about_hub(Eigen::Vector3d(row.force[0], row.force[1], row.force[2]),
-                   Eigen::Vector3d(row.moment[0], row.moment[1], row.moment[2]), true);
+  return of_blades([&](int blade) { return blade_load(blade, row); });
 }
 
 RotorLoad ResolvedRotor::blade_load(int blade) const {
@@ -206,9 +205,13 @@ RotorLoad ResolvedRotor::blade_load(const PatchLoads& p) const {
 }
 
 RotorLoad ResolvedRotor::load() const {
+  return of_blades([&](int blade) { return blade_load(blade); });
+}
+
+RotorLoad ResolvedRotor::of_blades(const std::function<RotorLoad(int blade)>& load) const {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   for (int b = 1; b <= made_->blades(); ++b) {
-    const RotorLoad blade = blade_load(b);
+    const RotorLoad blade = load(b);
     force += blade.force, moment += blade.moment;
   }
   return about_hub(force, moment + pose().hub.position.cross(force), true);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -85,7 +86,7 @@ class ResolvedRotor {
 
   /// Of the whole rotor after the last march, about the hub; one sector's load stands for all blades.
   RotorLoad load() const;
-  /// From a row of the march, which has forces on all blades of the grid, about the origin.
+  /// The same from a row of the march.
   RotorLoad load(const PseudoRow& row) const;
   /// Of one blade of the grid (1, 2, ...), about the hub; after the last march, or from a row of it.
   RotorLoad blade_load(int blade) const;
@@ -116,6 +117,8 @@ class ResolvedRotor {
   std::vector<SpanLoad> span_loads(std::span<const double> sums) const;
   std::vector<BlockPose> block_poses(const RotorPlace& place) const;
   RotorLoad blade_load(const PatchLoads& loads) const;
+  /// Of all blades; other walls count in their own columns.
+  RotorLoad of_blades(const std::function<RotorLoad(int blade)>& load) const;
   RotorLoad about_hub(const Eigen::Vector3d& force, const Eigen::Vector3d& moment, bool all) const;
 
   ResolvedRotorSetup setup_;

@@ -32,6 +32,13 @@ class RotorRun(Folder):
         thrusts = [row["rotor.thrust_N"] for row in self.table("history.csv")][-13:]  # the last third, as the summary's means
         self.assertAlmostEqual(3.0 * sum(r["normal_N_m"] * r["length_m"] for r in rows) / (sum(thrusts) / len(thrusts)), 1.0, places=5)  # lengths have six digits
 
+    def test_thrust_is_that_of_the_blades_also_where_the_hub_has_loads(self):
+        hub = 'aero.flow.boundaries=[{patch="hub", condition="slip"}]'
+        done = spindrift("run", SCENE, "--out", self.out, settings=[*TINY, *TURNING, "aero.grid.sectors=all", hub, "time.end_s=0.05", "aero.flow.max_pseudo_steps=2"])
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        last = self.table("history.csv")[-1]
+        self.assertAlmostEqual(last["rotor.thrust_N"] / sum(last[f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3)), 1.0, delta=1e-9)
+
     def test_a_turning_rotor_has_columns_by_blade_and_restarts_with_the_same_digits(self):
         whole = [*TINY, *TURNING, "aero.grid.sectors=all"]
         done = spindrift("run", SCENE, "--out", self.out, settings=whole)
