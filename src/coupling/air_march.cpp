@@ -54,7 +54,7 @@ void require_good_step(const aero::FlowSolver& solver, const FloatingSystem& flo
                     "that at its start, {:.2g} is asked for",
                     t, march.steps - 1, march.balance_drop(), flow.drop));
   if (double(unconverged) > flow.unconverged_share * double(std::max(windows, march.ended)))
-    throw NumericalFailure(
+    throw LastingFailure(  // from smaller CFL numbers the same pseudo-steps come less far
         fmt::format("t = {:g} s: aero: {} of {} steps spent their {} pseudo-steps without the drop of {:.2g}, more than "
                     "aero.flow.unconverged_share = {:g} of the run's; the last ended at {:.2g}; try more "
                     "aero.flow.max_pseudo_steps or a shorter window",

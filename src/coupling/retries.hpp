@@ -3,9 +3,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kernels/base/failure.hpp"
+
 namespace spindrift::coupling {
 
 inline constexpr int most_retries = 3;
+
+/// Of a window that smaller steps would not mend: it is not made again.
+struct LastingFailure : NumericalFailure {
+  using NumericalFailure::NumericalFailure;
+};
 
 /// Of the n-th retry; 0: as the scene asks.
 constexpr int pieces_of_step(int retry) { return 1 << (2 * retry); }         ///< of the bodies' step: 1, 4, 16, 64

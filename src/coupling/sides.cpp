@@ -11,6 +11,7 @@
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/coupling/floating_system.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 
@@ -30,7 +31,7 @@ std::string text(Unpacker& from) {
 /// files are not what they should be, all throw.
 template <class Pack, class Unpack>
 void broadcast_from(const runtime::Parts& parts, int part, Pack&& pack, Unpack&& unpack) {
-  enum class End : char { result, numerical, input, stop };
+  enum class End : char { result, numerical, lasting, input, stop };
   Packer parcel;
   const auto failed = [&](End end, const std::exception& e) {
     parcel = Packer();
@@ -40,7 +41,7 @@ void broadcast_from(const runtime::Parts& parts, int part, Pack&& pack, Unpack&&
       parcel.put_one(End::result);
       pack(parcel);
     } catch (const NumericalFailure& f) {
-      failed(End::numerical, f), put(parcel, f.place);
+      failed(dynamic_cast<const LastingFailure*>(&f) ? End::lasting : End::numerical, f), put(parcel, f.place);
       parcel.put_one(f.step), parcel.put_one(f.time_s), parcel.put_one(f.limit);
     } catch (const io::InputError& e) { failed(End::input, e); } catch (const scene::SceneError& e) {
       failed(End::input, e);
@@ -55,6 +56,7 @@ void broadcast_from(const runtime::Parts& parts, int part, Pack&& pack, Unpack&&
   const std::string place = text(from);
   const long step = from.one<long>();
   const double t = from.one<double>(), limit = from.one<double>();
+  if (end == End::lasting) throw LastingFailure(what, place, step, t, limit);
   throw NumericalFailure(what, place, step, t, limit);
 }
 

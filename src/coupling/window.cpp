@@ -73,7 +73,7 @@ WindowReport CoupledWindow::advance(bodies::BodiesState& state, int retry) {
   const bool air_waits = !sides_.interface || state.tick < 0;
   last_ = air_waits ? advance_bodies(state) : loose_ ? advance_loose(state) : advance_strong(state);
   last_.stopped = sides_.stopped();
-  last_.of_a_side = !last_.failure.empty() && !sides_.trouble().empty();
+  last_.of_a_side = !last_.failure.empty() && sides_.mendable();
   if (!last_.ok())
     sides_.return_to(AirSide::window, Run::both);
   else if (!air_waits)

@@ -5,6 +5,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "src/coupling/retries.hpp"
 
 namespace spindrift::coupling {
 
@@ -44,6 +45,8 @@ Vector WindowSides::take_load() {
   ++rotor_calls_;
   try {
     return interface->rows(air_->load_at_end());
+  } catch (const LastingFailure& failure) {
+    air_failure_.what = failure.what(), air_failure_.lasting = true;
   } catch (const NumericalFailure& failure) { air_failure_.what = failure.what(); } catch (const runtime::StopAsked&) {
     air_failure_.stopped = true;
   }
@@ -92,7 +95,7 @@ void WindowSides::balance(std::int64_t window, std::int64_t windows) {
 void WindowSides::take_snapshot(AirSide::Snapshot slot) { air_->take_snapshot(slot), bodies_->take_snapshot(slot); }
 
 void WindowSides::return_to(AirSide::Snapshot slot, Run sides) {
-  air_failure_.what.clear(), bodies_failure_.what.clear();
+  air_failure_.what.clear(), air_failure_.lasting = false, bodies_failure_.what.clear();
   if (has_air(sides)) air_->return_to(slot);
   if (has_bodies(sides)) bodies_->return_to(slot);
 }

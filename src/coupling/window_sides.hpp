@@ -41,6 +41,8 @@ class WindowSides {
   bool stopped() const { return air_failure_.stopped || bodies_failure_.stopped; }
   /// Why a side did not come to the end; empty where both did, or were stopped.
   const std::string& trouble() const { return air_failure_.what.empty() ? bodies_failure_.what : air_failure_.what; }
+  /// Whether smaller steps may mend that.
+  bool mendable() const { return !trouble().empty() && !air_failure_.lasting; }
 
   AirSide& air() const { return *air_; }
   BodySide& bodies() const { return *bodies_; }
@@ -55,7 +57,7 @@ class WindowSides {
  private:
   struct Failure {
     std::string what;
-    bool stopped = false;
+    bool lasting = false, stopped = false;
   };
   bool take_motion(bodies::BodiesState& state);
   Vector take_load();

@@ -6,6 +6,7 @@
 
 #include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
+#include "src/coupling/retries.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 
@@ -25,6 +26,7 @@ class ToldAir final : public AirSide {
   }
   void prepare(double t, double, const aero::RotorState&) override { t_ = t; }
   aero::RotorLoad load_at_end() override {
+    if (t_ < -5.0) throw LastingFailure("the air will not do", "aero/rotor", 8, t_);
     if (t_ < 0.0) throw NumericalFailure("the air gave up", "aero/rotor", 7, t_, 0.5);
     load_.thrust = t_, load_.force = {1.0 / 3.0 * t_, 2.0, 3.0}, load_.moment = {4.0, 5.0, 1e300};
     return load_;
@@ -94,6 +96,8 @@ TEST_CASE("the air's answer, columns and sentences are on every rank, and so is 
     CHECK(std::string(f.what()) == "the air gave up");
     CHECK((f.place == "aero/rotor" && f.step == 7 && f.time_s == -1.0 && f.limit == 0.5));
   }
+  air->prepare(-9.0, 0.1, {});
+  CHECK_THROWS_AS(air->load_at_end(), LastingFailure);
   CHECK_THROWS_AS(air->begin(60.0, {}), io::InputError);
 }
 
