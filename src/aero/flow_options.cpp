@@ -74,7 +74,7 @@ const scene::Section<FlowOptions>& flow_section() {
           .only_if("turbulence", closures().with("wind_eddy_viscosity"))
           .number("wind_intensity", &FlowOptions::wind_intensity, "-",
                   "Intensity of the modelled turbulence of the undisturbed air: root mean square of a component over the wind's "
-                  "speed. Default: k of 9e-9 times the sound speed squared.",
+                  "speed; with wind_eddy_viscosity. Default: k of 9e-9 times the sound speed squared.",
                   above(0.0).up_to(1.0))
           .only_if("turbulence", closures().with("wind_intensity"))
           .choice("flux", &FlowOptions::flux,
@@ -227,6 +227,10 @@ const scene::Section<FlowOptions>& flow_section() {
             if (of(o.blades).wall_law && !transports)
               report("blades",
                      fmt::format("\"{}\" goes with turbulence that is modelled, not \"{}\"", of(o.blades).name, o.turbulence));
+            if (o.wind_intensity && !o.wind_eddy_viscosity)
+              report("wind_intensity",
+                     "has no effect by itself: with the default eddy viscosity, 0.009 of the laminar one, it "
+                     "decays within a few cells; give wind_eddy_viscosity too, 10 say");
             if (o.motion && o.time == "steady" && o.motion->oscillates())
               report("motion", "oscillates, which steady flow cannot follow: take time = \"bdf2\", or pitch_deg alone");
             const bool common = o.preconditioner == "coarse" || o.preconditioner == "auto";

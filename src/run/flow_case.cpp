@@ -63,17 +63,13 @@ struct HeldTurbulence {
 
 /// Wilcox's model of 1988 lets layers depend on the omega at their edge (Menter 1992, AIAA J. 30, 1657), and between a far side
 /// and a body that of the stream decays to a fraction of U/L: an aerofoil's drag came out seven times too large. So where the
-/// scene says nothing of it the stream has omega = 10 U/L with the length L of the walls, the most that NASA's Turbulence
+/// scene gives no intensity the stream has omega = 10 U/L with the length L of the walls, the most that NASA's Turbulence
 /// Modeling Resource recommends, and keeps it (Spalart & Rumsey 2007, AIAA J. 45, 2544).
 std::optional<HeldTurbulence> hold_turbulence(aero::FlowSetting& s, double length) {
   if (s.turbulence != turbulence::KOmega1988::name || !(length > 0.0)) return std::nullopt;
   const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, s.stream)) / gas::density(s.gas, s.stream);
-  if (!s.wind_eddy_viscosity && !s.wind_intensity) {
-    constexpr double eddy_over_laminar = 0.009;  // as other closures of two equations
-    const double k = 10.0 * s.speed / length * eddy_over_laminar * nu;
-    s.wind_eddy_viscosity = eddy_over_laminar, s.wind_intensity = std::sqrt(k / 1.5) / s.speed;
-  }
-  if (!s.wind_eddy_viscosity || !s.wind_intensity) return std::nullopt;
+  if (!s.wind_eddy_viscosity) s.wind_eddy_viscosity = 0.009;  // as other closures of two equations
+  if (!s.wind_intensity) s.wind_intensity = std::sqrt(10.0 * s.speed / length * *s.wind_eddy_viscosity * nu / 1.5) / s.speed;
   const double k = 1.5 * *s.wind_intensity * *s.wind_intensity * s.speed * s.speed;
   return HeldTurbulence{k, k / (*s.wind_eddy_viscosity * nu)};
 }

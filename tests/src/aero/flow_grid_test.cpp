@@ -150,3 +150,9 @@ TEST_CASE("walls that stick are refused in inviscid air, with what to take", "[f
   CHECK_THROWS_WITH(read(grid + "condition = 'wall_function'\n"), Contains("take condition = \"slip\""));
   CHECK_THROWS_WITH(read(grid + "condition = 'no_slip'\ntemperature_K = 300\n"), Contains("and leave out temperature_K"));
 }
+
+TEST_CASE("an intensity of the wind's turbulence that would decay at once is refused", "[flow][fast]") {
+  const std::string grid = "[aero.flow.generate]\nkind = 'cylinder'\n", by_itself = "turbulence = 'sst'\nwind_intensity = 0.01\n";
+  CHECK_THROWS_WITH(read(by_itself + grid), Contains("aero.flow.wind_intensity") && Contains("give wind_eddy_viscosity too"));
+  CHECK_NOTHROW(read(by_itself + "wind_eddy_viscosity = 10\n" + grid));
+}
