@@ -375,4 +375,12 @@ int coarse_groups(const Tiling& tiling, int group_cells) {
   return groups;
 }
 
+std::optional<int> side_of_groups(const Tiling& tiling, int group_cells, int most_groups) {
+  if (tiling.size() > most_groups) return std::nullopt;
+  constexpr int longest = 64;  // of aero.flow.group_cells
+  for (int side = group_cells; side > 0 && side <= longest; side *= 2)
+    if (coarse_groups(tiling, side) <= most_groups) return side;
+  return 0;
+}
+
 }  // namespace spindrift::aero

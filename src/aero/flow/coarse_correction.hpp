@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "src/aero/flow/preconditioner.hpp"
 
@@ -18,5 +19,8 @@ std::unique_ptr<Preconditioner> make_coarse_correction(const PreconditionerOptio
 
 /// Groups of all tiles together, where a group has `group_cells` cells a side at most.
 int coarse_groups(const Tiling& tiling, int group_cells);
+/// The least longest side of a group, from `group_cells` on by doubling and then 0, with at most so many groups; nothing where
+/// there are more tiles.
+std::optional<int> side_of_groups(const Tiling& tiling, int group_cells, int most_groups);
 
 }  // namespace spindrift::aero

@@ -138,3 +138,14 @@ TEST_CASE("two ranks give an eliminated coarse correction the bits of one, multi
 TEST_CASE("four ranks give an eliminated coarse correction the bits of one, multigrid its tolerance", "[flow][mpi4]") {
   coarse_on(4);
 }
+
+TEST_CASE("groups grow until there are few enough to eliminate", "[flow][fast]") {
+  const BoxOptions box{.ni = 16, .nj = 16, .nk = 16};
+  const Tiling tiling = make_tiling(cartesian_box(box), {}, {.across_j = 8, .across_k = 8, .normal = 8});
+  REQUIRE(tiling.size() == 8);
+  CHECK(side_of_groups(tiling, 2, 512) == 2);
+  CHECK(side_of_groups(tiling, 2, 511) == 4);
+  CHECK(side_of_groups(tiling, 2, 8) == 8);
+  CHECK(side_of_groups(tiling, 0, 8) == 0);
+  CHECK(side_of_groups(tiling, 2, 7) == std::nullopt);
+}
