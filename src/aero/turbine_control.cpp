@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "kernels/base/interpolation.hpp"
 
@@ -96,12 +97,14 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
   std::ranges::fill(memory, 0.0);
   State s{t, start_.azimuth, start_.speed, 0.0, 0.0, 0.0, double(Mode::parked), start_.pitch, 0.0, 0.0, {}};
   const Rows rows = this->rows(memory);
+  constexpr double before_all = -std::numeric_limits<double>::infinity();
   std::ranges::fill(rows.pitch, start_.pitch), std::ranges::fill(rows.asked, start_.pitch);
   if (library_) {
     s.mode = double(Mode::operating);
     s.shaft_torque = measured.torque;
     std::copy_n(measured.velocity.data(), 3, rows.velocity.begin()),
         std::copy_n(measured.turning.data(), 3, rows.turning.begin());
+    happen(before_all, t, s, rows.stuck);
     ask_library(t, 0.0, measured, s.speed, s, rows);
     lay_shaft(measured, s, memory);
     return store(s, memory);
@@ -121,6 +124,7 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
   s.shaft_torque = s.generator_torque;
   s.controller = settled_at(s.generator_torque);
   lay_shaft(measured, s, memory);
+  if (happen(before_all, t, s, rows.stuck)) ask_law(0.0, measured, s.speed, s, rows);
   store(s, memory);
 }
 
@@ -136,10 +140,11 @@ double TurbineControl::brake(const State& s) const {
   return s.mode == double(Mode::parked) || s.mode == double(Mode::braked) ? drive_train_.brake_torque_N_m : s.brake_torque;
 }
 
-/// Events of this step.
-void TurbineControl::happen(double t, double h, State& s, std::span<double> stuck) const {
+bool TurbineControl::happen(double after, double t, State& s, std::span<double> stuck) const {
+  bool any = false;
   for (const EventOptions& event : events_) {
-    if (event.time_s > t || event.time_s <= t - h) continue;
+    if (!(after < event.time_s && event.time_s <= t)) continue;
+    any = true;
     switch (event.what) {
       case ControlEvent::start_up:
         s.mode = double(Mode::starting);
@@ -158,6 +163,7 @@ void TurbineControl::happen(double t, double h, State& s, std::span<double> stuc
         break;
     }
   }
+  return any;
 }
 
 /// Blades pitch to feather; the generator's torque is up to the caller.
@@ -289,10 +295,10 @@ void TurbineControl::advance(double t, double h, const Measured& measured, std::
     turn_elastic(h, measured, s, memory);
   else
     turn_rigid(h, measured, s);
-  s.time = t;
   const double generator_speed = this->generator_speed(s, memory);
 
-  happen(t, h, s, rows.stuck);
+  happen(s.time, t, s, rows.stuck);  // from the time stored: t - h may round past an event
+  s.time = t;
   if (library_)
     ask_library(t, h, measured, generator_speed, s, rows);
   else

@@ -98,7 +98,8 @@ class TurbineControl {
     std::span<double> pitch, rate, stuck, asked, velocity, turning;
   };
   Rows rows(std::span<double> memory) const;
-  void happen(double t, double h, State& s, std::span<double> stuck) const;
+  /// Events later than `after` and not later than t; whether there was any.
+  bool happen(double after, double t, State& s, std::span<double> stuck) const;
   double brake(const State& s) const;
   void lay_shaft(const Measured& measured, State& s, std::span<double> memory) const;
   void turn_rigid(double h, const Measured& measured, State& s) const;

@@ -123,6 +123,55 @@ TEST_CASE("after a loss of grid the generator is off, the blades feather at thei
   CHECK(fastest == Approx(10.0 * radians_per_degree).epsilon(1e-2));
 }
 
+TEST_CASE("an event at time 0 happens before the first step, each kind as it would later", "[aero][fast]") {
+  const auto begun = [](const EventOptions& event, ControlStart start = ControlStart::operating) {
+    const TurbineControl control = made({.model = ControlModel::dtu, .start = start, .events = {event}}, 1.005, 0.2);
+    std::vector<double> memory(control.memory_size());
+    control.begin(0.0, {10e6, 15.0}, memory);
+    const TurbineControl::State s = TurbineControl::state(memory);
+    for (int n = 1; n <= 20; ++n) control.advance(0.05 * n, 0.05, {10e6, 15.0}, memory);
+    const auto pitch = control.pitch(memory);
+    return std::tuple(TurbineControl::Mode(s.mode), s.generator_torque, std::vector(pitch.begin(), pitch.end()));
+  };
+  using enum TurbineControl::Mode;
+  for (const auto& [what, mode] :
+       {std::pair(ControlEvent::grid_loss, tripped), std::pair(ControlEvent::emergency_stop, braked)}) {
+    const auto [at_once, torque, pitch] = begun({.what = what});
+    CHECK(at_once == mode);
+    CHECK(torque == 0.0);
+    CHECK(pitch[0] == Approx(0.2 + 10.0 * radians_per_degree).epsilon(0.05));
+  }
+  const auto [stopped, falling, to_feather] = begun({.what = ControlEvent::shut_down});
+  CHECK(stopped == stopping);
+  CHECK(falling > 0.0);
+  CHECK(to_feather[0] > 0.2);
+  const auto [started, none, from_feather] = begun({.what = ControlEvent::start_up}, ControlStart::parked);
+  CHECK(started == starting);
+  CHECK(none == 0.0);
+  CHECK(from_feather[0] < 0.5 * pi);
+  const auto [on, full, blades] = begun({.what = ControlEvent::blade_stuck, .blade = 2});
+  CHECK(on == operating);
+  CHECK(full > 0.0);
+  CHECK(blades[1] == 0.2);
+  CHECK(blades[0] != 0.2);
+}
+
+TEST_CASE("an event is not lost where a time less its step rounds past it", "[aero][fast]") {
+  const double step = 0.03, at = 3.6;
+  const TurbineControl control = made({.model = ControlModel::dtu, .events = {{.what = ControlEvent::grid_loss, .time_s = at}}});
+  std::vector<double> memory(control.memory_size());
+  control.begin(0.0, {5e6, 9.0}, memory);
+  int changes = 0;
+  double mode = TurbineControl::state(memory).mode;
+  for (int n = 1; n <= 130; ++n) {
+    control.advance(step * n, step, {5e6, 9.0}, memory);
+    const double now = TurbineControl::state(memory).mode;
+    changes += now != mode, mode = now;
+  }
+  CHECK(changes == 1);
+  CHECK(TurbineControl::Mode(mode) == TurbineControl::Mode::tripped);
+}
+
 TEST_CASE("a stuck blade stays while the others pitch", "[aero][fast]") {
   const TurbineControl control = made({.model = ControlModel::dtu,
                                        .events = {{.what = ControlEvent::blade_stuck, .time_s = 1.0, .blade = 2},
