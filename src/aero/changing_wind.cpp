@@ -35,6 +35,12 @@ Eigen::Vector3d inflow_plane_centre(const WindOptions& wind, const WindSite& sit
   return site.hub - upwind.value_or(site.diameter) * way_of(wind);
 }
 
+/// The box must last until what passes the plane at the end.
+WindSite with_plane(const WindOptions& wind, WindSite site) {
+  if (wind.turbulence) site.upwind = wind.turbulence->inflow_plane_m.value_or(site.diameter);
+  return site;
+}
+
 }  // namespace
 
 std::string why_inflow_plane_outside(const WindOptions& wind, const WindSite& site, const Corners& grid) {
@@ -55,7 +61,7 @@ void require_inflow_plane_inside(const MultiBlockGrid& grid, const WindOptions& 
 }
 
 ChangingWind::ChangingWind(const WindOptions& wind, const WindSite& site)
-    : wind_(wind_of(wind, site)), site_(site), plane_{inflow_plane_centre(wind, site), way_of(wind), 1.0, {}} {}
+    : wind_(wind_of(wind, with_plane(wind, site))), site_(site), plane_{inflow_plane_centre(wind, site), way_of(wind), 1.0, {}} {}
 
 void ChangingWind::place(const GridStore& store, MPI_Comm comm) {
   if (!has_plane()) return;

@@ -182,6 +182,21 @@ class WindInTime {
     }
   }
 
+  /// Blades of a rotor that faces the wind's side reach upwind by its radius.
+  void require_box_until_end() const {
+    const double before = start_ + (0.5 * box_.width() + site_.upwind + 0.5 * site_.diameter) / box_.wind,
+                 last = (box_.steps - 1) * box_.step_s;
+    constexpr double float_rounding = 1e-6;  // of the file's step
+    if (box_.periodic || before + site_.t_end <= last * (1.0 + float_rounding)) return;
+    throw scene::SceneError(
+        {{"", 0, "wind.turbulence.file", "",
+          fmt::format(
+              "ends after {:.6g} s and does not repeat (format 7): at t = 0 the wind is {:.4g} s into it, by start_s, half "
+              "its width and what is upwind of the hub, so time.end_s = {:g} must be at most {:.6g}, or make a longer or "
+              "periodic file",
+              last, before, site_.t_end, std::max(last - before, 0.0))}});
+  }
+
   void make_box(const TurbulenceOptions& o, const WindOptions& wind) {
     start_ = o.start_s;
     const double hub_wind = speed_ * wind_profile(wind).share(site_.hub.z());
@@ -222,6 +237,7 @@ class WindInTime {
                  "at {:.4g} m{}",
                  box_.width(), box_.bottom, box_.top(), site_.across + site_.up > 0.0 ? "s" : "", site_.diameter, site_.hub.z(),
                  site_.across > 0.0 ? fmt::format(", whose hubs are {:.4g} m apart across the wind", site_.across) : ""));
+    require_box_until_end();
   }
 
   double speed_, direction_, incidence_, start_ = 0.0;

@@ -53,9 +53,11 @@ struct WindSite {
   Eigen::Vector3d hub = Eigen::Vector3d::Zero();  ///< at the start; of several the middle [m]
   double diameter = 0.0;                          ///< of several the largest [m]
   double across = 0.0, up = 0.0;                  ///< of several, from hub to hub at most, across the wind and upwards [m]
+  double upwind = 0.0;                            ///< from there, the farthest hub or plane that wind is asked for at [m]
+  double t_end = 0.0;                             ///< of the run [s]
 };
 
-/// Throws scene::SceneError where a file cannot be read, or a box does not cover the rotor or (t_end) the run.
+/// Throws scene::SceneError where a file cannot be read, or a box does not cover the rotor or the run.
 Wind wind_of(const WindOptions& wind, const WindSite& site);
 
 /// The speed that the scene's wind begins with, from its files where those say so [m/s].

@@ -32,6 +32,7 @@ aero::RotorPlacement place_rotor(const Scenario& s) {
 /// One wind for all rotors, each of which meets it at its own place: gusts and boxes are made for the middle of their hubs.
 aero::WindSite site_of(std::span<const Scenario> each) {
   aero::WindSite site{place_rotor(each.front()).hub, aero::rotor_diameter(each.front().rotor)};
+  site.t_end = each.front().time.end_s;
   if (each.size() == 1) return site;
   const double direction = each.front().wind.direction;
   Eigen::Matrix3d axes;  // rows: along the wind, across, up
@@ -42,7 +43,7 @@ aero::WindSite site_of(std::span<const Scenario> each) {
     site.diameter = std::max(site.diameter, aero::rotor_diameter(one.rotor));
   }
   site.hub = axes.transpose() * hubs.center();
-  site.across = hubs.sizes().y(), site.up = hubs.sizes().z();
+  site.upwind = 0.5 * hubs.sizes().x(), site.across = hubs.sizes().y(), site.up = hubs.sizes().z();
   return site;
 }
 

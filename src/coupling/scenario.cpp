@@ -392,7 +392,9 @@ PlacedRotor placed_rotor(const Scenario& s) {
   return placed;
 }
 
-aero::WindSite wind_site(const Scenario& s) { return {placed_rotor(s).rotor.hub_m, 2.0 * rotor_radius(s)}; }
+aero::WindSite wind_site(const Scenario& s) {
+  return {.hub = placed_rotor(s).rotor.hub_m, .diameter = 2.0 * rotor_radius(s), .t_end = s.time.end_s};
+}
 
 aero::ResolvedRotorSetup resolved_rotor_setup(const Scenario& s) {
   constexpr double usual_load_change = 1e-3;

@@ -115,3 +115,27 @@ TEST_CASE("a box that does not cover the rotor is refused", "[aero][fast]") {
   options.turbulence = TurbulenceOptions{.points_across = 3, .points_up = 3, .width_m = 100.0, .duration_s = 20.0, .step_s = 0.5};
   CHECK_THROWS_AS(wind_of(options, site), scene::SceneError);
 }
+
+TEST_CASE("a .bts that does not repeat is refused where it ends before the run, a periodic one is not", "[aero][fast]") {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("spindrift_wind_" + std::to_string(getpid()) + ".bts")).string();
+  BtsFile file{.id = 7, .up = 3, .across = 3, .steps = 41, .up_m = 100, .across_m = 100, .step_s = 0.5f, .wind = 10};
+  file.hub_height = 119, file.bottom = 19;
+  file.grid.resize(3 * 3 * 3 * 41, 10);
+  write_bts(file, path);
+  WindOptions options;
+  options.turbulence = TurbulenceOptions{.model = TurbulenceModel::bts, .file = path, .start_s = 1.0};
+  // 20 s less start_s, half the width (100 m) and the radius (89 m) over 10 m/s.
+  const auto for_run = [&](double t_end, double upwind = 0.0) {
+    return wind_of(options, {.hub = hub, .diameter = 178.0, .upwind = upwind, .t_end = t_end});
+  };
+  CHECK_NOTHROW(for_run(0.099));
+  CHECK_THROWS_WITH(for_run(0.2), Contains("wind.turbulence.file") && Contains("must be at most 0.1"));
+  options.turbulence->start_s = 0.0;
+  CHECK_NOTHROW(for_run(0.2));
+  CHECK_THROWS_WITH(for_run(0.2, 15.0), Contains("wind.turbulence.file"));
+  file.id = 8;
+  write_bts(file, path);
+  CHECK_NOTHROW(for_run(1000.0));
+  std::filesystem::remove(path);
+}
