@@ -99,7 +99,9 @@ const BladeLoads::Load& RotorLoads::blade_load(double t, const RotorState& now) 
 }
 
 RotorLoad RotorLoads::load(double t, const RotorState& now, double ramp) const {
-  return load(wind_, t, now, ramp, blades() ? &blade_load(t, now) : nullptr);
+  RotorLoad load = this->load(wind_, t, now, ramp, blades() ? &blade_load(t, now) : nullptr);
+  if (control_) add_drive(now, load.shaft_torque, ramp, load.moment);
+  return load;
 }
 
 RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const {
@@ -125,7 +127,6 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
     load.force += ramp * drag.force, load.moment += ramp * drag.moment;
   }
-  if (control_) add_drive(now, load.shaft_torque, ramp, load.moment);
   return load;
 }
 
@@ -230,13 +231,16 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   RotorState now = state(t, bodies);
   now.relative_wind = aero::relative_wind(mean_wind, t, now.hub, now.hub_velocity, now.axis);
   BladeLoads::Load air;
+  RotorLoad sum;
   const double first = now.azimuth;
   for (int place = 0; place < places; ++place) {
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
     if (blades()) blades()->fill(blades_at(mean_wind, t, now, memory_), true, air);
     const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, blades() ? &air : nullptr);
-    bearing_.add_load(bodies, wrenches, load.force, load.moment);
+    sum.force += load.force, sum.moment += load.moment, sum.shaft_torque += load.shaft_torque;
   }
+  if (control_) add_drive(now, sum.shaft_torque, 1.0, sum.moment);
+  bearing_.add_load(bodies, wrenches, sum.force, sum.moment);
 }
 
 }  // namespace spindrift::aero

@@ -119,7 +119,7 @@ class RotorLoads {
   TurbineControl::Measured measured(double t, const RotorState& now) const;
   /// Under the scene's own wind. What was asked for last is not computed again: a row of history asks for what a step did.
   const BladeLoads::Load& blade_load(double t, const RotorState& now) const;
-  /// `air`: of the blades; null for models without sections.
+  /// Without what the drive train adds. `air`: of the blades; null for models without sections.
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const;
   void add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const;
 

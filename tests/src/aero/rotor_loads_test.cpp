@@ -245,6 +245,27 @@ TEST_CASE("a drive train that air computed elsewhere turns does what it does und
   CHECK(half == Approx(0.5 * whole));
 }
 
+TEST_CASE("mean loads of a controlled rotor have its gyroscopic moment once, as a spinning body has it", "[aero][fast]") {
+  RotorOptions options = turbine();
+  options.joint = "", options.speed = 0.8;
+  options.operation = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_operation.csv";
+  ControlOptions control;
+  control.model = ControlModel::dtu, control.file = SPINDRIFT_SOURCE_DIR "/inputs/turbines/dtu_10mw_controller.toml";
+  const RotorPlacement place{.body = 0, .support = std::nullopt, .hub = {0, 0, 119}};
+  const RotorLoads rotor(constant_thrust(), options, {}, 1.225, place, start(), control, 0.05);
+  const auto mean_moment = [&](double pitch_rate) {
+    const auto bodies = moved(0.0, 0.0, 0.0, pitch_rate);
+    std::vector<Wrench> w(bodies.size());
+    for (std::size_t i = 0; i < w.size(); ++i) w[i].point = bodies[i].position;
+    rotor.add_mean_loads(0.0, bodies, w);
+    return w[0].moment;
+  };
+  const double rate = 0.02;
+  const Vector3d momentum = rotor.control()->drive_train().rotor_inertia_kg_m2 * 0.8 * Vector3d::UnitX();
+  const Vector3d gyroscopic = -rate * Vector3d::UnitY().cross(momentum);
+  CHECK((mean_moment(rate) - mean_moment(0.0) - gyroscopic).norm() < 1e-9 * gyroscopic.norm());
+}
+
 namespace {
 
 // Everything as seen in a mirror, the plane y = 0: vectors, and what turns.
