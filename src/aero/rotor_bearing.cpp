@@ -27,6 +27,11 @@ RotorBearing::RotorBearing(const RotorPlacement& placement, double azimuth, std:
   start_turn_ = support * body.attitude;
 }
 
+std::optional<std::size_t> RotorBearing::carrier() const {
+  const int index = placement_.support.value_or(placement_.body);
+  return index == RotorPlacement::earth ? std::nullopt : std::optional(std::size_t(index));
+}
+
 Eigen::Quaterniond RotorBearing::support_attitude(std::span<const Motion> bodies) const {
   if (!placement_.support) return bodies[body()].attitude;
   return *placement_.support == RotorPlacement::earth ? Eigen::Quaterniond::Identity() : bodies[*placement_.support].attitude;

@@ -52,6 +52,8 @@ class RotorBearing {
 
   /// Index of the body that takes the load.
   std::size_t body() const { return std::size_t(placement_.body); }
+  /// That of what carries the rotor: the same where it turns by itself, none where the earth does.
+  std::optional<std::size_t> carrier() const;
   /// Whether a body turns the rotor; else it turns by itself, of which state() is told.
   bool is_turned() const { return placement_.support.has_value(); }
   /// But for the wind. `azimuth`, `speed`: of a rotor that turns by itself.

@@ -123,11 +123,16 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
     load.force = load.thrust * thrust_direction_.value_or(now.axis), load.moment = load.torque * now.shaft();
   }
   load.power = load.torque * now.speed;
-  if (tower_) {
-    const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
-    load.force += ramp * drag.force, load.moment += ramp * drag.moment;
-  }
   return load;
+}
+
+void RotorLoads::add_tower_drag(const Wind& wind, double t, const RotorState& now, double ramp,
+                                std::span<Wrench> wrenches) const {
+  const std::optional<std::size_t> body = body_of_tower_drag();
+  if (!body) return;
+  const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
+  wrenches[*body].add_force(ramp * drag.force, now.hub);
+  wrenches[*body].add_moment(ramp * drag.moment);
 }
 
 /// On the body act the shaft's torque in place of that on the rotor (`torque`, ramped), and the gyroscopic moment of the spinning
@@ -222,6 +227,7 @@ void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<W
   const RotorLoad load = this->load(t, now, ramp);
   wrenches[bearing_.body()].add_force(load.force, now.hub);
   wrenches[bearing_.body()].add_moment(load.moment);
+  add_tower_drag(wind_, t, now, ramp, wrenches);
 }
 
 void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
@@ -241,6 +247,7 @@ void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::s
   }
   if (control_) add_drive(now, sum.shaft_torque, 1.0, sum.moment);
   bearing_.add_load(bodies, wrenches, sum.force, sum.moment);
+  add_tower_drag(mean_wind, t, now, 1.0, wrenches);
 }
 
 }  // namespace spindrift::aero

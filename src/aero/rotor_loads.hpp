@@ -25,7 +25,8 @@ struct RotorLoad {
   double torque = 0.0;        ///< [N m]
   double power = 0.0;         ///< torque times rotor speed [W]
   double shaft_torque = 0.0;  ///< of the blades on the hub: of the air and, where they bend, their inertia [N m]
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  ///< all of it, about the hub, earth frame
+  /// Of the rotor, about the hub, earth frame; not of the tower's drag.
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
 
   RotorLoad times(double factor) const {
     return {factor * thrust, factor * torque, factor * power, factor * shaft_torque, factor * force, factor * moment};
@@ -54,7 +55,7 @@ class RotorLoads {
              const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {},
              double step_s = 0.0, const Eigen::Vector3d& gravity_m_s2 = Eigen::Vector3d::Zero());
 
-  /// Adds the load, times `ramp`, to the rotor body's wrench.
+  /// Adds the load, times `ramp`, to the rotor body's wrench, and the tower's drag to that of what carries the rotor.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
 
   /// The same under the mean wind (the scene's own at the start, without gusts and turbulence), as a mean over a turn of blade 1.
@@ -73,6 +74,10 @@ class RotorLoads {
 
   RotorState state(double t, std::span<const Motion> bodies) const;
   const RotorBearing& bearing() const { return bearing_; }
+  /// Index of what takes the tower's drag; none without drag, or where that is the earth.
+  std::optional<std::size_t> body_of_tower_drag() const {
+    return tower_ && tower_->has_drag() ? bearing_.carrier() : std::nullopt;
+  }
   /// Undisturbed.
   const Wind& wind() const { return wind_; }
   RotorLoad load(double t, const RotorState& now, double ramp = 1.0) const;
@@ -121,6 +126,7 @@ class RotorLoads {
   const BladeLoads::Load& blade_load(double t, const RotorState& now) const;
   /// Without what the drive train adds. `air`: of the blades; null for models without sections.
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const;
+  void add_tower_drag(const Wind& wind, double t, const RotorState& now, double ramp, std::span<Wrench> wrenches) const;
   void add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const;
 
   RotorBearing bearing_;

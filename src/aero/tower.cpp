@@ -84,7 +84,6 @@ Eigen::Vector3d Tower::disturbed(const TowerFrame& now, const Eigen::Vector3d& w
 
 TowerLoad Tower::drag(const TowerFrame& now, const Wind& wind, double t) const {
   TowerLoad load;
-  if (!has_drag_) return load;
   const Eigen::Matrix3d axes = axes_of(now);
   const Eigen::Vector3d tower = axes * (stations_.back().from_hub - stations_.front().from_hub).normalized();
   for (std::size_t k = 0; k + 1 < stations_.size(); ++k) {

@@ -42,8 +42,10 @@ class Tower {
 
   /// The wind at a point near the tower, from that which would be there without it.
   Eigen::Vector3d disturbed(const TowerFrame& now, const Eigen::Vector3d& wind, const Eigen::Vector3d& point) const;
+  /// Where has_drag().
   TowerLoad drag(const TowerFrame& now, const Wind& wind, double t) const;
   bool changes_wind() const { return changes_wind_; }
+  bool has_drag() const { return has_drag_; }
 
  private:
   struct Station {

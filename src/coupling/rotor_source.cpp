@@ -106,7 +106,9 @@ void RotorSource::add_to(LoadSources& sources) {
         loads.memory_size(), [this](double t, std::span<const Motion> m, std::span<double> memory) { loads.begin(t, m, memory); },
         [this](std::span<const double> memory) { loads.recall(memory); },
         [this](double t, double h, std::span<const Motion> m, std::span<double> memory) { loads.remember(t, h, m, memory); }};
-  sources.add(std::move(source), marked(bodies_, {int(loads.bearing().body())}));
+  std::vector<int> on{int(loads.bearing().body())};
+  if (const std::optional<std::size_t> tower = loads.body_of_tower_drag()) on.push_back(int(*tower));
+  sources.add(std::move(source), marked(bodies_, on));
 }
 
 std::deque<RotorSource> make_rotors(const Scenario& scenario, std::span<const Motion> start, double step_s,

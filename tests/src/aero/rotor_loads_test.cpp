@@ -92,6 +92,27 @@ TEST_CASE("azimuth and speed are those of the bearing, whatever the platform doe
   CHECK((now.hub_velocity - Vector3d(0, 0.2, 0).cross(now.hub)).norm() < 1e-12);
 }
 
+TEST_CASE("a tower's drag is on what carries the rotor, not on a rotor that turns in its bearing", "[aero][fast]") {
+  AeroOptions aero = analytic_law();
+  aero.tower.emplace().stations = {{0.0, 8.3, 1.0}, {115.0, 5.5, 0.9}};
+  aero.tower->foot_m = {7.0, 0.0};
+  const WindOptions wind{.speed_m_s = 11.0, .direction = pi / 6};
+  const auto load_of = [&](const RotorPlacement& place) {
+    return loads(RotorLoads(aero, turbine(), wind_of(wind, site), 1.225, place, start()), 0.0, start());
+  };
+  const auto turned = load_of(bearing);
+  CHECK(std::abs(turned[1].moment.x()) < 1e-6);
+  CHECK(turned[1].force.y() == Approx(0.0).margin(1e-6));
+  CHECK(turned[0].force.y() > 1e4);
+  RotorPlacement on_earth = bearing;
+  on_earth.support = RotorPlacement::earth;
+  const auto alone = load_of(on_earth);
+  CHECK(alone[0].force.norm() == 0.0);
+  CHECK((alone[1].force - turned[1].force).norm() < 1e-6);
+  const auto whole = load_of({.body = 0, .support = std::nullopt, .hub = bearing.hub});
+  CHECK((whole[0].force - turned[0].force - turned[1].force).norm() < 1e-6);
+}
+
 TEST_CASE("a rotor without a body of its own turns by its given speed", "[aero][fast]") {
   RotorOptions options = turbine();
   options.joint = "", options.speed = 0.9, options.azimuth = 1.0;
