@@ -87,8 +87,8 @@ scene::Section<Options> with_drive_train(scene::Section<Options> section) {
   using scene::positive, scene::not_negative, scene::between;
   using Train = DriveTrainOptions;
   return section
-      .number("rotor_inertia_kg_m2", of<Options>(&Train::rotor_inertia_kg_m2), "kg m2", "Blades and hub about the shaft.",
-              positive())
+      .number("rotor_inertia_kg_m2", of<Options>(&Train::rotor_inertia_kg_m2), "kg m2",
+              "Blades and hub about the shaft; not in the inertia of the rotor's body.", positive())
       .required()
       .number("generator_inertia_kg_m2", of<Options>(&Train::generator_inertia_kg_m2), "kg m2",
               "Generator, referred to the low-speed shaft.", not_negative())
@@ -158,7 +158,11 @@ void check_controller(const ControllerOptions& o, const scene::Report& report) {
 
 const scene::Section<ControlOptions>& control_section() {
   static const auto section =
-      scene::Section<ControlOptions>("control", "Who turns the rotor and pitches its blades.")
+      scene::Section<ControlOptions>(
+          "control",
+          "Who turns the rotor and pitches its blades. Mass and inertia of `rotor.body` are those with "
+          "the rotor, but its inertia about the shaft is the drive train's alone: the body has none of "
+          "it, because the rotor does not follow the body about the shaft.")
           .choice("model", &ControlOptions::model,
                   {{"none", ControlModel::none, "rotor speed and pitch as [rotor] or its bearing has them"},
                    {"dtu", ControlModel::dtu, "generator torque and collective pitch by the Basic DTU controller"},
@@ -286,7 +290,7 @@ void check_control(scene::Document& doc, const ControlOptions& control, const Ae
   if (!rotor.joint.empty())
     doc.problem(section + ".joint",
                 "must be left out with [control]: the drive train turns the rotor within rotor.body, whose mass "
-                "and inertia are those with the rotor");
+                "and inertia are those with the rotor, but about the shaft, where rotor_inertia_kg_m2 is the rotor's");
   if (control.model == ControlModel::library)
     check_library(doc, control, blades);
   else

@@ -211,6 +211,8 @@ void RotorLoads::add_added_mass(double t, std::span<const Motion> bodies, std::s
   // Acceleration of the hub from that of the body: a + alpha x arm.
   Eigen::Matrix<double, 6, 6> to_hub = Eigen::Matrix<double, 6, 6>::Identity();
   to_hub.topRightCorner<3, 3>() << 0.0, arm.z(), -arm.y(), -arm.z(), 0.0, arm.x(), arm.y(), -arm.x(), 0.0;
+  // Under the generator's torque the rotor does not follow the body about the shaft: what bends there is off the drive train.
+  if (control_) to_hub.bottomRightCorner<3, 3>() -= now.axis * now.axis.transpose();
   matrices[bearing_.body()] += to_hub.transpose() * flexible()->added_mass(blades_at(wind_, t, now, memory_).rotor) * to_hub;
 }
 

@@ -103,12 +103,13 @@ Imported import_openfast(const std::filesystem::path& main_file, const std::file
 
   const ImportedEnvironment environment = import_environment(run, elastodyn, system.wet);
   const ImportedWater water = system.wet ? import_water(run, environment.depth, environment.water_density) : ImportedWater{};
-  const std::string bodies = import_bodies(run, elastodyn, rotor, system, water);
   const ImportedRotor turbine = import_rotor(run, elastodyn, rotor, system, blades);
   const bool has_waves = water.text.find("[waves]") != std::string::npos;
   const std::string moorings = system.floats ? import_moorings(run, environment, has_waves, lines) : "";
   const double step = std::min(system.tower_bends ? flexible_step : rigid_step, turbine.longest_step);
   const ImportedControl control = import_control(run, elastodyn, rotor, !turbine.text.empty(), {step, turbine.longest_step});
+  system.controlled = !control.text.empty();
+  const std::string bodies = import_bodies(run, elastodyn, rotor, system, water);
   list_rigid_parts(run, elastodyn, system.tower_bends, control.shaft_twists);
   write_scene(run, control.step.value_or(step), environment.text + bodies + turbine.text + moorings + control.text + water.text);
   return {folder / "scene.toml", run.left_out, run.carried};

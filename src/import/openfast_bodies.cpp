@@ -33,7 +33,7 @@ struct Displaced {
 /// Nacelle, hub and blades on the tower's top.
 std::string flexible_tower(DeckImport& run, const Deck& elastodyn, const RotorFrame& rotor, const ImportedSystem& system,
                            const Displaced& platform) {
-  const MassSum top = top_masses(elastodyn, rotor);
+  const MassSum top = top_masses(elastodyn, rotor, system.controlled);
   const ImportedBeam beam = tower_beam(elastodyn);
   std::string text = "\n[bodies.nacelle]                        # nacelle, hub and blades\n" + mass_keys(top);
   const auto& [reference, moved, turned] = platform;
@@ -64,14 +64,14 @@ std::string import_bodies(DeckImport& run, const Deck& ed, const RotorFrame& rot
   if (!system.has_platform()) {
     const Eigen::Vector3d none = Eigen::Vector3d::Zero();
     const std::string text = flexible_tower(run, ed, rotor, system, {none, none, none});
-    run.carry(fmt::format("nacelle, hub and blades: {:.6g} kg", top_masses(ed, rotor).mass()));
+    run.carry(fmt::format("nacelle, hub and blades: {:.6g} kg", top_masses(ed, rotor, system.controlled).mass()));
     return text;
   }
   int free = 0;
   for (const char* freedom : {"PtfmSgDOF", "PtfmSwDOF", "PtfmHvDOF", "PtfmRDOF", "PtfmPDOF", "PtfmYDOF"})
     free += ed.flag({freedom}, false);
   const bool held = !system.floats || free == 0;
-  MassSum sum = system.tower_bends ? platform_masses(ed) : all_masses(ed, rotor);
+  MassSum sum = system.tower_bends ? platform_masses(ed) : all_masses(ed, rotor, system.controlled);
   if (water.ballast.mass() > 0.0) {
     sum.add(water.ballast);
     run.carry(fmt::format("ballast: {:.6g} kg in filled members", water.ballast.mass()));

@@ -16,7 +16,7 @@ ImportedControl library(DeckImport& run, const Deck& deck, const Deck& ed, const
   const auto absolute = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal().string();
   };
-  const double gear = ed.number({"GBRatio"}, 1.0), generator = gear * gear * ed.number({"GenIner"}, 0.0);
+  const double gear = ed.number({"GBRatio"}, 1.0), generator = generator_inertia(ed);
   ImportedControl control;
   std::string& text = control.text;
   text = "\n[control]\nmodel = \"library\"\nlibrary = \"" + absolute(deck.path({"DLL_FileName"})) + "\"\n";
@@ -43,7 +43,7 @@ ImportedControl library(DeckImport& run, const Deck& deck, const Deck& ed, const
       records += fmt::format("[[control.records]]\nrecord = {}\nvalue = {:.9g}\n", r.record, r.unit * value);
   text += records + "[control.drive_train]\n" +
           fmt::format("rotor_inertia_kg_m2 = {:.9g}\ngenerator_inertia_kg_m2 = {:.9g}\ngear_ratio = {:.9g}\n",
-                      rotor_inertia(ed, rotor) - generator, generator, gear);
+                      rotor_inertia(ed, rotor), generator, gear);
   if (const double efficiency = deck.number({"GenEff"}, 100.0); efficiency != 100.0)
     text += fmt::format("generator_efficiency = {:.9g}\n", 0.01 * efficiency);
   if (const double brake = deck.number({"HSSBrTqF"}, 0.0); brake > 0.0)
@@ -111,9 +111,9 @@ ImportedControl import_control(DeckImport& run, const Deck& ed, const RotorFrame
     why = fmt::format("its library {} is not there", library.string());
   if (why.empty()) return library(run, deck, ed, rotor, bodies);
   run.leave_out(
-      fmt::format("ServoDyn ({}): the rotor keeps its speed and pitch; give [control] (inertia of rotor and generator about the "
-                  "shaft: {:.6g} kg m2)",
-                  why, rotor_inertia(ed, rotor)));
+      fmt::format("ServoDyn ({}): the rotor keeps its speed and pitch; give [control] (about the shaft the rotor has {:.6g} kg "
+                  "m2, which then come off the body's inertia, the generator {:.6g})",
+                  why, rotor_inertia(ed, rotor), generator_inertia(ed)));
   return {};
 }
 

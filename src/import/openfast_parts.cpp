@@ -135,11 +135,6 @@ void add_blades(const Deck& ed, const RotorFrame& r, MassSum& sum) {
 
 Eigen::Matrix3d about_axis(double inertia, const Eigen::Vector3d& axis) { return inertia * axis * axis.transpose(); }
 
-double generator_inertia(const Deck& ed) {
-  const double ratio = ed.number({"GBRatio"}, 1.0);
-  return ed.number({"GenIner"}, 0.0) * ratio * ratio;
-}
-
 }  // namespace
 
 namespace {
@@ -160,7 +155,7 @@ void add_tower(const Deck& ed, MassSum& sum) {
         });
 }
 
-void add_top(const Deck& ed, const RotorFrame& r, MassSum& sum) {
+void add_top(const Deck& ed, const RotorFrame& r, bool controlled, MassSum& sum) {
   const double top = ed.number({"TowerHt"});
   const Eigen::Vector3d nacelle =
       Eigen::AngleAxisd(r.yaw, Eigen::Vector3d::UnitZ()) *
@@ -172,15 +167,16 @@ void add_top(const Deck& ed, const RotorFrame& r, MassSum& sum) {
   sum.add(ed.number({"HubMass"}, 0.0), r.hub + ed.number({"HubCM"}, 0.0) * r.axis,
           about_axis(ed.number({"HubIner"}, 0.0), r.axis));
   add_blades(ed, r, sum);
+  if (controlled) sum.add(0.0, r.hub, about_axis(-rotor_inertia(ed, r), r.axis));
 }
 
 }  // namespace
 
-MassSum all_masses(const Deck& ed, const RotorFrame& r) {
+MassSum all_masses(const Deck& ed, const RotorFrame& r, bool controlled) {
   MassSum sum;
   add_platform(ed, sum);
   add_tower(ed, sum);
-  add_top(ed, r, sum);
+  add_top(ed, r, controlled, sum);
   return sum;
 }
 
@@ -190,9 +186,9 @@ MassSum platform_masses(const Deck& ed) {
   return sum;
 }
 
-MassSum top_masses(const Deck& ed, const RotorFrame& r) {
+MassSum top_masses(const Deck& ed, const RotorFrame& r, bool controlled) {
   MassSum sum;
-  add_top(ed, r, sum);
+  add_top(ed, r, controlled, sum);
   return sum;
 }
 
@@ -258,7 +254,12 @@ double rotor_inertia(const Deck& ed, const RotorFrame& r) {
   const Eigen::Vector3d c = blades.centre();
   const Eigen::Matrix3d about_hub =
       blades.inertia() + blades.mass() * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
-  return r.axis.dot(about_hub * r.axis) + ed.number({"HubIner"}, 0.0) + generator_inertia(ed);
+  return r.axis.dot(about_hub * r.axis) + ed.number({"HubIner"}, 0.0);
+}
+
+double generator_inertia(const Deck& ed) {
+  const double ratio = ed.number({"GBRatio"}, 1.0);
+  return ed.number({"GenIner"}, 0.0) * ratio * ratio;
 }
 
 namespace {

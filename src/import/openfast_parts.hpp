@@ -39,11 +39,12 @@ struct RotorFrame {
 };
 RotorFrame rotor_frame(const Deck& elastodyn);
 
-/// Platform, tower, nacelle, hub, blades, as ElastoDyn has them. The generator turns with the shaft alone and is not in it.
-MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor);
+/// Platform, tower, nacelle, hub, blades, as ElastoDyn has them. The generator turns with the shaft alone and is not in it, nor
+/// is the rotor's inertia about the shaft where [control] turns it.
+MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor, bool controlled);
 /// The parts of all_masses below the tower, and on top of it.
 MassSum platform_masses(const Deck& elastodyn);
-MassSum top_masses(const Deck& elastodyn, const RotorFrame& rotor);
+MassSum top_masses(const Deck& elastodyn, const RotorFrame& rotor, bool controlled);
 
 /// The tower as a beam: file of its properties, heights of its ends, damping of its first and second modes (the mean of both
 /// planes).
@@ -62,8 +63,9 @@ struct ImportedBending {
 };
 ImportedBending blade_bending(const Deck& elastodyn, const RotorFrame& rotor);
 
-/// Blades, hub and generator about the shaft [kg m2].
+/// About the shaft [kg m2]: blades and hub; the generator.
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
+double generator_inertia(const Deck& elastodyn);
 
 struct WrittenTurbine {
   std::vector<std::string> left_out;

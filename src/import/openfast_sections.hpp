@@ -16,6 +16,7 @@ namespace spindrift::decks {
 struct ImportedSystem {
   bool wet = false, floats = false;
   bool tower_bends = false;  ///< in the scene
+  bool controlled = false;   ///< [control] turns the rotor
   /// A flexible tower on land is clamped to the earth.
   bool has_platform() const { return wet || !tower_bends; }
 };

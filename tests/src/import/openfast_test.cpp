@@ -785,6 +785,10 @@ TEST_CASE("a controller library of a deck is the scene's, with its drive train a
   CHECK(drive.generator_inertia_kg_m2 == 100.0 * 50.0 * 50.0);
   CHECK(drive.rotor_inertia_kg_m2 > 50000.0);
   CHECK(drive.max_pitch_rate == Approx(8.0 * radians_per_degree));
+  // About the shaft the body has nothing of the rotor, which does not follow it there.
+  const Eigen::Matrix3d off = SmallDeck().scenario().bodies[0].options.inertia_kg_m2 - s.bodies[0].options.inertia_kg_m2,
+                        turning = drive.rotor_inertia_kg_m2 * s.rotor.axis * s.rotor.axis.transpose();
+  CHECK((off - turning).norm() < 1e-6 * turning.norm());
   const auto record = [&](int number) {
     for (const aero::RecordOptions& r : s.control.records)
       if (r.record == number) return r.value;
