@@ -39,7 +39,7 @@ class BladeLoads {
   std::size_t roots() const { return roots_ ? roots_->blades() : 0; }
 
   /// Forces of the air on the modes of all blades.
-  using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * FlexibleBlades::max_blades>;
+  using OnModes = std::array<double, std::size_t(FlexibleBlades::modes) * most_blades>;
   /// What the air does.
   struct Load {
     DiscLoad disc;

@@ -36,12 +36,11 @@ struct HubField {
 class FlexibleBlades {
  public:
   static constexpr int modes = beam::BladeModes::count;
-  static constexpr int max_blades = 8;
   using Modal = Eigen::Vector3d;  ///< of the modes of one blade
   static_assert(modes == 3);
   /// Amplitudes [kg^1/2 m] and their rates, of all blades in turn.
   struct Bending {
-    std::array<double, std::size_t(modes) * max_blades> amplitudes{}, rates{};
+    std::array<double, std::size_t(modes) * most_blades> amplitudes{}, rates{};
     auto amplitude(int blade) { return Eigen::Map<Modal>(amplitudes.data() + modes * blade); }
     auto rate(int blade) { return Eigen::Map<Modal>(rates.data() + modes * blade); }
     Modal amplitude(int blade) const { return Eigen::Map<const Modal>(amplitudes.data() + modes * blade); }

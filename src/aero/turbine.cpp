@@ -188,7 +188,7 @@ void check_numbers(const std::string& path, const std::vector<PolarOptions>& pol
 const scene::Section<TurbineOptions>& turbine_section() {
   static const auto section =
       scene::Section<TurbineOptions>("turbine", "A rotor as data: blades from tables of sections.")
-          .integer("blades", &TurbineOptions::blades, "-", "Number of equal blades.", scene::between(1, 12))
+          .integer("blades", &TurbineOptions::blades, "-", "Number of equal blades.", scene::between(1, most_blades))
           .number("hub_radius_m", &TurbineOptions::hub_radius_m, "m", "Radius at which the blades begin.", scene::positive())
           .required()
           .degrees("precone_deg", &TurbineOptions::precone,

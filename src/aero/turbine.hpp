@@ -16,6 +16,7 @@ class Section;
 
 namespace spindrift::aero {
 
+inline constexpr int most_blades = 12;                      ///< of a rotor
 inline constexpr double air_kinematic_viscosity = 1.46e-5;  ///< of air at 15 C [m2/s], ISO 2533
 
 /// Of a polar, for dynamic stall after Beddoes & Leishman: in place of what the polar itself says.

@@ -54,6 +54,17 @@ TEST_CASE("the DTU 10 MW blade has the frequencies of its report", "[aero][fast]
   CHECK(dtu_blades().omega_turning(1.005)[0] > 1.03 * omega[0]);  // rated speed stiffens the flap
 }
 
+TEST_CASE("as many blades as a turbine may have bend each for itself", "[aero][fast]") {
+  const FlexibleBlades blades = uniform_blades(400.0, 5e9, 9e9, most_blades);
+  FlexibleBlades::Bending bending;
+  blades.settle(standing(), {Vector3d::Zero(), Vector3d::Zero(), weight}, std::vector<double>(3 * most_blades), bending);
+  std::ranges::fill(bending.rates, 7.0);
+  bending.amplitude(most_blades - 1).setConstant(5.0);
+  CHECK(std::ranges::all_of(bending.rates, [](double rate) { return rate == 7.0; }));
+  for (int b = 0; b + 1 < most_blades / 2; ++b)  // opposite blades hang to opposite sides
+    CHECK(bending.amplitude(b)[1] == Approx(-bending.amplitude(b + most_blades / 2)[1]).margin(1e-6));
+}
+
 TEST_CASE("a level blade hangs by its weight as a cantilever does", "[aero][fast]") {
   const double mass = 400.0, flap = 5e9, edge = 9e9, length = dtu().planform.span.back() - dtu().hub_radius;
   const FlexibleBlades blades = uniform_blades(mass, flap, edge, 1);
