@@ -272,6 +272,8 @@ double greatest_speed(const WindOptions& wind) {
   return wind.table.empty() ? starting_speed(wind) : std::ranges::max(read_wind_table(wind.table).speed);
 }
 
+bool has_directions(const WindOptions& wind) { return !wind.table.empty() && !read_wind_table(wind.table).direction.empty(); }
+
 bool turns(const WindOptions& wind) {
   if (wind.event &&
       (wind.event->what == WindEvent::ecd || wind.event->what == WindEvent::edc || wind.event->direction_change != 0.0))

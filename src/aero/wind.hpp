@@ -67,6 +67,8 @@ double starting_direction(const WindOptions& wind);
 /// Of its table, or that which it begins with: before events and turbulence [m/s].
 double greatest_speed(const WindOptions& wind);
 
+/// Whether a table says where it blows to, in place of wind.direction_deg; throws as below.
+bool has_directions(const WindOptions& wind);
 /// Whether its direction changes in time; throws scene::SceneError where its table cannot be read.
 bool turns(const WindOptions& wind);
 

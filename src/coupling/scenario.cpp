@@ -475,6 +475,8 @@ Scenario read_scenario(scene::Document& document) {
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do", "aero.model");
   try {
+    if (document.given("wind.direction_deg") && aero::has_directions(s.wind))
+      document.problem("wind.direction_deg", "has no effect: the table has a column of this name");
     s.wind.speed_m_s = aero::starting_speed(s.wind), s.wind.direction = aero::starting_direction(s.wind);
     if (s.resolves_air()) s.wind.incidence = s.aero.flow->incidence;
     if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);

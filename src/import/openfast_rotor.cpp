@@ -42,6 +42,24 @@ std::string tower_wake(DeckImport& run, const Deck& ad, const RotorFrame& rotor)
   return text;
 }
 
+/// Settings of the balance of blades and wake that differ from those of this program.
+void list_balance(DeckImport& run, const Deck& ad) {
+  constexpr double factor = 15.0 * pi / 32.0;
+  const int skew = ad.integer({"SkewMod"}, ad.has("AFAeroMod") ? 2 : 1);
+  // Decks of version 3 have 2 for Pitt and Peters' model, later ones 1 with SkewRedistr_Mod 1.
+  if (skew != (ad.has("AFAeroMod") ? 2 : 1) || ad.integer({"SkewRedistrMod"}, 1) != 1)
+    run.leave_out(fmt::format("SkewMod {}: the wake of a rotor across the wind is skewed after Pitt and Peters", skew));
+  if (ad.flag({"SkewMomCorr"}, false)) run.leave_out("SkewMomCorr: thrust and induction are in balance as without skew");
+  if (const double given = ad.number({"SkewModFactor", "SkewRedistrFactor"}, factor); std::abs(given - factor) > 1e-3 * factor)
+    run.leave_out(fmt::format("SkewModFactor {:g}: it is 15 pi / 32", given));
+  for (const auto& [key, what] :
+       {std::pair{"TipLoss", "blades lose lift at their tips"}, std::pair{"HubLoss", "blades lose lift at the hub"},
+        std::pair{"TanInd", "the air is turned by the rotor"}, std::pair{"AIDrag", "drag is in the axial balance"},
+        std::pair{"TIDrag", "drag is in the tangential balance"}})
+    if (!ad.flag({key}, true)) run.leave_out(fmt::format("{} False: {}", key, what));
+  if (ad.integer({"DBEMT_Mod"}, 0) == -1) run.leave_out("the frozen wake (DBEMT_Mod -1)");
+}
+
 /// What takes time in the flow. Decks of version 3 have Wake_Mod 2 for the dynamic wake and AFAeroMod 2 for the unsteady
 /// aerofoils besides.
 std::string unsteady_flow(DeckImport& run, const Deck& ad, int wake) {
@@ -138,16 +156,20 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
     text += fmt::format("kinematic_viscosity_m2_s = {:.9g}\n", ad.number({"KinVisc"}, run.main.number({"KinVisc"})));
     run.carry("polars at several Reynolds numbers (AFTabMod 2)");
   }
+  list_balance(run, ad);
   text += unsteady_flow(run, ad, wake);
   text += tower_wake(run, ad, rotor);
   text += fmt::format("\n[rotor]\nbody = \"{}\"\nturbine = \"turbine.toml\"\n", system.tower_bends ? "nacelle" : "platform");
   text += "hub_m = " + toml_vector(rotor.hub) + "\naxis = " + toml_vector(rotor.axis) + "\n";
-  text += fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}),
-                      ed.number({"BlPitch(1)", "BlPitch1"}, 0.0));
+  const double pitch = ed.number({"BlPitch(1)", "BlPitch1"}, 0.0);
+  text += fmt::format("speed_rpm = {:.9g}\nblade_pitch_deg = {:.9g}\n", ed.number({"RotSpeed"}), pitch);
+  for (int b = 2; b <= rotor.blades; ++b)
+    if (const std::string key = fmt::format("BlPitch({})", b); ed.number({key, fmt::format("BlPitch{}", b)}, pitch) != pitch)
+      run.leave_out(key + ": all blades have the pitch of the first");
+  if (ed.number({"AzimB1Up"}, 0.0) != 0.0) run.leave_out("AzimB1Up: the azimuth is 0 where blade 1 is up");
   if (const double azimuth = ed.number({"Azimuth"}, 0.0); azimuth != 0.0) text += fmt::format("azimuth_deg = {:.9g}\n", azimuth);
   const ImportedRotor bending = bending_keys(run, ed, rotor, blades);
-  run.carry(fmt::format("rotor: {} blades, {:.4g} rpm, blade pitch {:.4g} deg", rotor.blades, ed.number({"RotSpeed"}),
-                        ed.number({"BlPitch(1)", "BlPitch1"}, 0.0)));
+  run.carry(fmt::format("rotor: {} blades, {:.4g} rpm, blade pitch {:.4g} deg", rotor.blades, ed.number({"RotSpeed"}), pitch));
   return {text + bending.text, bending.longest_step};
 }
 

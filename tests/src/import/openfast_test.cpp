@@ -429,6 +429,76 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   CHECK(scene.str().find("# - motion of yaw bearing") != std::string::npos);
 }
 
+TEST_CASE("settings of a deck that the scene has not, and that change its loads, are told", "[import][fast]") {
+  struct Setting {
+    const char *file, *line, *told;
+  };
+  for (const auto& [file, line, told] :
+       {Setting{"ad.dat", "0 Skew_Mod", "SkewMod 0"}, Setting{"ad.dat", "1 AFAeroMod\n1 SkewMod", "SkewMod 1"},
+        Setting{"ad.dat", "1 Skew_Mod\n0 SkewRedistr_Mod", "SkewMod 1"}, Setting{"ad.dat", "True SkewMomCorr", "SkewMomCorr"},
+        Setting{"ad.dat", "0.7 SkewModFactor", "SkewModFactor 0.7"}, Setting{"ad.dat", "False TipLoss", "TipLoss"},
+        Setting{"ad.dat", "False HubLoss", "HubLoss"}, Setting{"ad.dat", "False TanInd", "TanInd"},
+        Setting{"ad.dat", "False AIDrag", "AIDrag"}, Setting{"ad.dat", "False TIDrag", "TIDrag"},
+        Setting{"ad.dat", "-1 DBEMT_Mod", "DBEMT_Mod -1"}, Setting{"ed.dat", "90 AzimB1Up", "AzimB1Up"}}) {
+    SmallDeck deck;
+    INFO(line);
+    CHECK_FALSE(has_word(deck.import().left_out, told));
+    deck.files[file] += std::string(line) + "\n";
+    CHECK(has_word(deck.import().left_out, told));
+  }
+  SmallDeck same;
+  same.files["ad.dat"] +=
+      "1 AFAeroMod\n2 SkewMod\n\"default\" SkewModFactor\nTrue TipLoss\nTrue HubLoss\nTrue TanInd\n0 DBEMT_Mod\n";
+  for (const char* word : {"Skew", "Loss", "TanInd", "DBEMT_Mod"}) CHECK_FALSE(has_word(same.import().left_out, word));
+  same.replace("ed.dat", "3 BlPitch(3)", "5 BlPitch(3)");
+  CHECK(has_word(same.import().left_out, "BlPitch(3)"));
+}
+
+TEST_CASE("uniform wind of a deck blows where file and PropagationDir say, and stays when the file has one row",
+          "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ifw.dat", "1 WindType\n0 PropagationDir", "2 WindType\n20 PropagationDir\n\"uniform.wnd\" FileName_Uni");
+  deck.files["uniform.wnd"] = "! time speed direction vertical shears gust\n0 9 10 0 0 0.2 0 1\n";
+  const decks::Imported imported = deck.import();
+  CHECK(has_word(imported.left_out, "gust column"));
+  const coupling::Scenario s = deck.scenario();
+  for (const double t : {0.0, 50.0}) {
+    const Eigen::Vector3d wind = aero::wind_of(s.wind, {{0, 0, 62}, 80.0}).at(t, {0, 0, 62});
+    CHECK(std::atan2(wind.y(), wind.x()) == Approx(-30.0 * radians_per_degree));
+  }
+  scene::Document twice = scene::load(imported.scene.string(), {"wind.direction_deg=5"});
+  CHECK_THROWS_WITH(coupling::read_scenario(twice), Catch::Contains("wind.direction_deg") && Catch::Contains("no effect"));
+  deck.replace("uniform.wnd", "0.2 0 1", "0.2 0 0");
+  CHECK_FALSE(has_word(deck.import().left_out, "gust column"));
+}
+
+TEST_CASE("the mean wind of a deck's Mann box is the scene's", "[import][fast]") {
+  SmallDeck deck;
+  const double hub = 62.0 - 4.0 * std::sin(-6.0 * radians_per_degree);
+  deck.replace("ifw.dat", "1 WindType",
+               "5 WindType\n\"u.bin\" FileName_u\n\"u.bin\" FileName_v\n\"u.bin\" FileName_w\n2 nx\n2 ny\n2 nz\n100 dx\n"
+               "100 dy\n100 dz\n9 URef\n0 WindProfile\n0.2 PLExp_Hawc\n0.03 Z0\n" +
+                   std::to_string(hub) + " RefHt_Hawc\n0 XOffset");
+  deck.files["u.bin"] = std::string(32, '\0');
+  const auto scene = [&] {
+    const decks::Imported imported = deck.import();
+    CHECK_FALSE(has_word(imported.left_out, "RefHt_Hawc"));
+    std::ostringstream text;
+    text << std::ifstream(imported.scene).rdbuf();
+    return text.str();
+  };
+  using Catch::Contains;
+  CHECK_THAT(scene(), !Contains("profile = "));
+  deck.replace("ifw.dat", "0 WindProfile", "1 WindProfile");
+  CHECK_THAT(scene(), Contains("profile = \"logarithmic\"") && Contains("roughness_m = 0.03"));
+  deck.replace("ifw.dat", "1 WindProfile", "2 WindProfile");
+  CHECK_THAT(scene(), Contains("profile = \"power_law\"") && Contains("shear_exponent = 0.2"));
+  deck.replace("ifw.dat", "0 XOffset", "30 XOffset");
+  CHECK(has_word(deck.import().left_out, "XOffset"));
+  deck.replace("ifw.dat", std::to_string(hub), "100");
+  CHECK(has_word(deck.import().left_out, "RefHt_Hawc 100"));
+}
+
 TEST_CASE("the tower's wake comes with its flow, and decks that mean otherwise are told", "[import][fast]") {
   const auto told = [](const char* flow, const char* wake, const char* overhang, const char* what) {
     SmallDeck deck;
