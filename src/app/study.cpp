@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/app/commands.hpp"
@@ -22,6 +23,7 @@
 #include "src/report/report.hpp"
 #include "src/scene/columns.hpp"
 #include "src/scene/error.hpp"
+#include "src/scene/identity.hpp"
 #include "src/scene/text_check.hpp"
 
 namespace spindrift::app {
@@ -76,26 +78,39 @@ Json of_load_cases(const scene::LoadCasesOptions& o) {
           {"wohler_exponents", o.wohler_exponents}};
 }
 
-/// A scene that every check has passed, with the echo by which a finished run is known again.
+/// A scene that every check has passed, with the identity by which a finished run is known again.
 struct Checked {
-  std::string echo;
+  std::string identity;
   Forecast forecast;
   std::optional<double> end_s;  ///< of its history; a march that ends where it has settled has none
 };
 
+/// Digests of files, each read once however many runs name it.
+using Digests = std::map<std::string, scene::FileDigest>;
+
+std::string identity_of(const std::string& echo, const scene::FileRecord& read, Digests& digests) {
+  scene::Identity identity{echo, {}};
+  for (const std::string& file : read.files()) {
+    if (!digests.contains(file)) digests[file] = scene::digest_of(file);
+    identity.files.push_back(digests[file]);
+  }
+  return identity.text();
+}
+
 /// `forecasts`: with its forecast, for which the floating system is made; the replicas of a rung have that of the first.
 Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider,
-                bool forecasts) {
+                bool forecasts, Digests& digests) {
+  const scene::FileRecord read;
   scene::Document document = scene::load(file, overrides, overrider);
   const coupling::Scenario scenario = coupling::read_scenario(document);
-  if (!forecasts) return {document.echo(), {}, {}};
+  const std::string identity = identity_of(document.echo(), read, digests);
+  if (!forecasts) return {identity, {}, {}};
   const double before = processor_seconds(), end_s = scenario.time.end_s;
   if (scenario.has_flow())
-    return {document.echo(), forecast_of_air(scenario),
-            scenario.aero.flow->time == "steady" ? std::nullopt : std::optional(end_s)};
+    return {identity, forecast_of_air(scenario), scenario.aero.flow->time == "steady" ? std::nullopt : std::optional(end_s)};
   const ReadyScene ready = read_scene(file, overrides, overrider);
   const double start_s = processor_seconds() - before;
-  Checked checked{ready.echo, forecast(*ready.floating, ready.start), end_s};
+  Checked checked{identity, forecast(*ready.floating, ready.start), end_s};
   checked.forecast.core_seconds += start_s;
   return checked;
 }
@@ -152,7 +167,7 @@ void check_range(const scene::Study& study, const std::string& rung, double end_
   }
 }
 
-Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::optional<TimeRange>& reference,
+Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::optional<TimeRange>& reference, Digests& digests,
              std::vector<scene::Problem>& problems) {
   Json out{{"name", rung.name},
            {"variant", rung.variant},
@@ -169,7 +184,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::
   for (int n = 0; n < std::max(rung.replicas, 1); ++n) {
     std::vector<std::string> set = rung.overrides;
     set.insert(set.end(), replicas[std::size_t(n)].set.begin(), replicas[std::size_t(n)].set.end());
-    const Checked scene = checked(rung.scene, set, {study.file, study.directory}, n == 0);
+    const Checked scene = checked(rung.scene, set, {study.file, study.directory}, n == 0, digests);
     if (!first) {
       first = scene.forecast;
       check_columns(study, rung.name, first->columns, problems);
@@ -178,7 +193,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::
     out["runs"].push_back(
         {{"name", replicas[std::size_t(n)].name.empty() ? rung.name : rung.name + "/" + replicas[std::size_t(n)].name},
          {"set", set},
-         {"echo", scene.echo},
+         {"identity", scene.identity},
          {"forecast_core_s", first->core_seconds},
          {"forecast_bytes", first->bytes}});
   }
@@ -214,7 +229,8 @@ int study(const StudyArguments& arguments, const runtime::World& world) {
     plan["reference"] = {
         {"variant", r->variant}, {"history", r->history.empty() ? "" : fs::absolute(r->history).string()}, {"limit", r->limit}};
   std::vector<scene::Problem> problems;
-  for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, reference, problems));
+  Digests digests;
+  for (const scene::StudyRun& rung : expand(study)) plan["rungs"].push_back(of_rung(study, rung, reference, digests, problems));
   if (!problems.empty()) throw scene::SceneError(problems);
 
   if (!arguments.dry_run) fs::create_directories(folder);

@@ -5,7 +5,7 @@
     spindrift_study.py PLAN --dry-run FOLDER      says what would run in FOLDER, leaves nothing, removes PLAN
 
 Each run is a `spindrift run` of its own in FOLDER/RUN, with what it came to in FOLDER/RUN/study_run.json; runs that are there already are
-kept as long as their scene and the program are the same. SIGTERM or SIGINT ends the runs with a checkpoint and the study with exit
+kept as long as their scene, its files and the program are the same. SIGTERM or SIGINT ends the runs with a checkpoint and the study with exit
 code 5; the same command goes on. Exit codes: 0 done, 3 the reference or all runs failed, 5 stopped, 6 no run meets the targets.
 Tested in tests/coupled/study_test.py. SPDX-License-Identifier: Apache-2.0"""
 import argparse
@@ -59,8 +59,8 @@ def with_parent():
 
 
 def fingerprint(plan, run):
-    """Of the scene and the program."""
-    return hashlib.sha256((run["echo"] + plan["commit"]).encode()).hexdigest()
+    """Of the scene, the files that it names and the program."""
+    return hashlib.sha256((run["identity"] + plan["commit"]).encode()).hexdigest()
 
 
 def first_forecasts(folder, plan):

@@ -80,6 +80,29 @@ class Study(Folder):
         self.assertEqual(changed.returncode, 0)
         self.assertEqual({k: v for k, v in self.ledgers().items() if k in first}, first)
 
+    def test_a_run_is_repeated_where_a_file_of_its_scene_changed(self):
+        (self.path / "thrust.csv").write_text("time_s,thrust_N\n0,100\n10,100\n")
+        text = f"""
+[study]
+scene = "{ROOT}/tests/extremes/buoy.toml"
+set = ["aero.model=prescribed", 'aero.table="thrust.csv"', "rotor.body=buoy", "rotor.hub_m=[0,0,1]"]
+[axes.step]
+key = "time.step_s"
+values = [0.02]
+[metrics.surge]
+column = "buoy.x_m"
+measure = "last"
+"""
+        def surge():
+            done = self.study(text)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            return [rung["errors"]["surge"]["value"] for rung in self.result()["rungs"]]
+
+        before = surge()
+        (self.path / "thrust.csv").write_text("time_s,thrust_N\n0,200\n10,200\n")
+        for one, other in zip(before, surge()):
+            self.assertAlmostEqual(other / one, 2.0, delta=0.05)
+
     def test_a_dry_run_runs_nothing(self):
         done = self.study(STUDY, "--dry-run")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

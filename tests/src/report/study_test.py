@@ -28,7 +28,7 @@ class Synthetic:
         self.histories, self.results, rungs = {}, {}, []
         for name, off in offs.items():
             count = dear.get(name, replicas) if dear else replicas
-            runs = [{"name": f"{name}/{r}", "set": [], "echo": "", "forecast_core_s": costs[name], "forecast_bytes": 1e8} for r in names[:count]]
+            runs = [{"name": f"{name}/{r}", "set": [], "identity": "", "forecast_core_s": costs[name], "forecast_bytes": 1e8} for r in names[:count]]
             for n, run in enumerate(runs):
                 value = 5.0 * (1.0 + off + self.random.normal(0.0, own)) + shift[n]
                 self.histories[run["name"]] = (t, lambda column, v=value: np.full_like(t, v))
@@ -268,7 +268,7 @@ class Budget(unittest.TestCase):
             plan = Synthetic(LADDER, COSTS, replicas=1).plan
             spindrift_study.write_whole(folder / "forecasts.json", json.dumps(spindrift_study.first_forecasts(folder, plan)))
             again = Synthetic(LADDER, {name: 2.0 * cost for name, cost in COSTS.items()}, replicas=1).plan
-            again["rungs"][0]["runs"][0]["echo"] = "another scene"
+            again["rungs"][0]["runs"][0]["identity"] = "another scene"
             spindrift_study.first_forecasts(folder, again)
         self.assertEqual([rung["runs"][0]["forecast_core_s"] for rung in again["rungs"]], [2.0, 3.0, 10.0, 100.0])
 
