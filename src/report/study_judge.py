@@ -154,8 +154,8 @@ class Judge:
 
     def _gaps_of_histories(self, rung, other, metric):
         """Of two rungs, paired by replica; a rung that replicas do not touch stands beside each of the other's."""
-        runs = rung["runs"] * len(self.plan["replicas"]["points"]) if rung.get("fixed") else rung["runs"]
-        return self._gaps(metric, [(a["name"], b["name"]) for a, b in zip(runs, other["runs"]) if self._done(a) and self._done(b)])
+        mine, theirs = (r["runs"] * len(self.plan["replicas"]["points"]) if r.get("fixed") else r["runs"] for r in (rung, other))
+        return self._gaps(metric, [(a["name"], b["name"]) for a, b in zip(mine, theirs) if self._done(a) and self._done(b)])
 
     def _gaps(self, metric, pairs):
         gaps = []

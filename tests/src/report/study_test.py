@@ -142,13 +142,16 @@ class Borrowed(unittest.TestCase):
     VALUES = {"first": [2.0], "still": [5.0], "cheap": [1.0, 4.0], "rich": [0.0, 1.0], "dear": [0.5], "fine": [0.0]}
     COSTS = {"first": 0.5, "still": 1.0, "cheap": 2.0, "rich": 10.0, "dear": 50.0, "fine": 100.0}
 
-    def errors(self, values, metric=RMS):
+    def study(self, values, metric=RMS):
         study = Synthetic(dict.fromkeys(values, 0.0), self.COSTS, replicas=2, dear={n: len(v) for n, v in values.items()}, metric=metric)
         for rung in study.plan["rungs"]:
             rung["fixed"] = rung["name"] == "still"
             for run, value in zip(rung["runs"], values[rung["name"]]):
                 study.histories[run["name"]] = (np.linspace(0.0, 10.0, 11), lambda column, v=value: np.full(11, v))
-        result = study.judge().result()
+        return study
+
+    def errors(self, values, metric=RMS):
+        result = self.study(values, metric).judge().result()
         return result, {r["name"]: r["errors"][metric["name"]] for r in result["rungs"]}
 
     def half(self, error):
@@ -176,6 +179,13 @@ class Borrowed(unittest.TestCase):
         _, errors = self.errors(self.VALUES)  # 5 and 4 from 'rich'
         self.assertEqual((errors["still"]["scatter_of"], errors["still"]["scatter_against"]), (None, "rich"))
         self.assertAlmostEqual(self.half(errors["still"]), 12.706 * math.sqrt(0.5), delta=1e-3)
+
+    def test_against_a_reference_that_replicas_do_not_touch_each_replica_counts(self):
+        values = {"cheap": [1.0, 4.0], "rich": [0.0, 2.0], "still": [5.0]}  # 'still' is the reference
+        study = self.study(values)
+        study.plan["reference"]["variant"] = "still"
+        errors = {r["name"]: r["errors"]["rms"] for r in study.judge().result()["rungs"]}
+        self.assertEqual([(errors[n]["error"], errors[n]["replicas"]) for n in ("cheap", "rich")], [(2.5, 2), (4.0, 2)])
 
     def test_where_none_is_cheaper_the_cheapest_lends(self):
         values = {n: v for n, v in self.VALUES.items() if n != "still"}
