@@ -106,7 +106,7 @@ class Judge:
             if len(q) < 3:
                 values.append(math.nan)
                 continue
-            value, order, allowance, said = measures.richardson([h for h, _ in q], [v for _, v in q])
+            value, order, allowance, said = measures.richardson([h for h, _ in q], measures.unwrapped(self.metrics[m], [v for _, v in q]))
             values.append(value), allowances.append(allowance), orders.append(order)
             why = why or said
         orders = [p for p in orders if math.isfinite(p)]
@@ -311,7 +311,7 @@ class Judge:
                     mine, theirs = self.estimates[base["name"]][m].value, self.estimates[best["name"]][m].value
                     found.append(measures.Estimate(mine - theirs))
                     continue
-                pairs = [x - y for x, y in zip(self.quantities[base["name"]][m], self.quantities[best["name"]][m])
+                pairs = [measures.gap(metric, x, y) for x, y in zip(self.quantities[base["name"]][m], self.quantities[best["name"]][m])
                          if math.isfinite(x) and math.isfinite(y)]
                 known = [abs(v) for v in self.quantities[best["name"]][m] if math.isfinite(v)]
                 scale = (sum(known) / len(known) if known else math.nan) if metric["relative"] else metric["divide_by"]
@@ -472,12 +472,12 @@ class Judge:
                 e = self.estimates[rung["name"]][m]
                 known = math.isfinite(e.value)
                 low, high = e.size_interval(self.confidence) if known else (None, None)
-                values = [v for v in self.quantities[rung["name"]][m] if math.isfinite(v)]
+                values = measures.unwrapped(metric, [v for v in self.quantities[rung["name"]][m] if math.isfinite(v)])
                 scatter = measures.estimate(values) if values else None
                 row["errors"][metric["name"]] = {
                     "error": abs(e.value) if known else None, "signed": e.value if known else None, "low": low, "high": high,
                     "replicas": e.count, "scatter_of": e.lender, "scatter_against": e.against,
-                    "value": sum(values) / len(values) if values else None,
+                    "value": measures.gap(metric, sum(values) / len(values), 0.0) if values else None,
                     "scatter": scatter.error * math.sqrt(len(values)) if scatter and scatter.error is not None else None}
             rungs.append(row)
         base = answer or (min(self.candidates(), key=self.shortfall) if self.candidates() else None)

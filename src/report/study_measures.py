@@ -126,6 +126,12 @@ def gap(metric, a, b):
     return wrapped(a - b) if metric["measure"] == "phase" else a - b
 
 
+def unwrapped(metric, values):
+    """Quantities that can be averaged: phases within half a turn of the first that is known."""
+    first = next((v for v in values if math.isfinite(v)), 0.0)
+    return [first + gap(metric, v, first) for v in values]
+
+
 def student_cdf(t, freedom):
     """Probability below t of Student's distribution with an integer number of degrees of freedom (closed form, Abramowitz & Stegun
     26.7.3 and 26.7.4); above 200 the normal one."""

@@ -244,6 +244,24 @@ class Sources(unittest.TestCase):
         study.histories["/long.csv"] = (t, lambda column: np.where(t <= 10.0, 5.0, 50.0))
         self.assertAlmostEqual(study.judge().result()["rungs"][0]["errors"]["mean"]["error"], 0.0, places=9)
 
+    def test_phases_either_side_of_half_a_turn_are_near_each_other(self):
+        metric = dict(MEAN, name="phase", measure="phase", frequency_Hz=0.5, relative=False, target=5.0)
+        axes = [{"name": n, "values": ["a", "b"]} for n in ("turns", "moves")]
+        degrees = {"base": [179.0, -177.0], "base-turns_b": [-179.0, -175.0], "base-moves_b": [169.0, 173.0]}
+        study = Synthetic(dict.fromkeys(degrees, 0.0), {"base": 1.0, "base-turns_b": 2.0, "base-moves_b": 2.0}, replicas=2, axes=axes,
+                          at={"base": [0, 0], "base-turns_b": [1, 0], "base-moves_b": [0, 1]}, reference="base-turns_b", metric=metric)
+        t = np.linspace(0.0, 10.0, 101)
+        for rung, phases in zip(study.plan["rungs"], degrees.values()):
+            for run, phase in zip(rung["runs"], phases):
+                study.histories[run["name"]] = (t, lambda column, p=phase: np.cos(np.pi * t - math.radians(p)))
+        judge = study.judge()
+        self.assertEqual(judge.crossed(), [1, 0])
+        for effect, size in zip(judge.axis_effects(study.plan["rungs"][0]), (-2.0, 10.0)):
+            self.assertAlmostEqual(effect["effects"][0].value, size, places=6)
+        base = judge.result()["rungs"][0]["errors"]["phase"]
+        self.assertAlmostEqual(base["value"], -179.0, places=6)
+        self.assertAlmostEqual(base["scatter"], math.sqrt(8.0), places=6)
+
     def test_the_axes_that_matter_most_are_crossed(self):
         axes = [{"name": n, "values": ["a", "b"]} for n in ("small", "large", "middle")]
         offs, at = {"base": 0.0}, {"base": [0, 0, 0]}
