@@ -196,6 +196,22 @@ std::string title_of(const RunArguments& arguments, const std::string& title) {
   return given || (output != nullptr && output->find("title") != nullptr) ? title : fmt::format("{} (on: {})", name, title);
 }
 
+/// history.csv in a format of OpenFAST, where one is asked for. A file that cannot be written is said in the summary, and is the
+/// end of a run that came to no worse one. Collective.
+void write_openfast_file(io::Summary& summary, const io::RunDirectory& directory, const std::string& format,
+                         const std::string& title, MPI_Comm world) {
+  using Format = io::OpenFastFormat;
+  if (format == "none" || summary.columns.empty()) return;  // no row was written
+  try {
+    io::on_root(world, [&] {
+      write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, title);
+    });
+  } catch (const io::MachineFailure& failure) {
+    if (io::rank_of(world) == 0) spdlog::error("{}", failure.what());
+    if (summary.exit_code == done) summary.exit_code = machine_failure, summary.exit_reason = failure.what();
+  }
+}
+
 void print_summary(const io::Summary& summary, const io::RunDirectory& directory) {
   const double span = summary.end_time_s - summary.start_time_s;
   if (summary.pseudo_steps)
@@ -356,13 +372,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   });
   if (world.rank == 0)
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
+  write_openfast_file(summary, directory, scenario->output.openfast, title, world.comm);
   complete(summary);
-  if (world.rank == 0) {
-    using Format = io::OpenFastFormat;
-    if (const std::string& format = scenario->output.openfast; format != "none")
-      write_openfast(directory.history(), summary.columns, format == "text" ? Format::text : Format::binary, summary.title);
-    print_summary(summary, directory);
-  }
+  if (world.rank == 0) print_summary(summary, directory);
   stop.over();
   return {std::move(summary), directory.path(), world.rank == 0};
 }

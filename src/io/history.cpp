@@ -96,10 +96,11 @@ void History::open(const std::filesystem::path& path) {
   buffer_.reserve(buffer_bytes + columns_.size() * 26);
   bytes_ = rows_ = 0;
   digest_ = 0;
+  before_last_.reset();
   drain();
 }
 
-double History::resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written) {
+double History::resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written, bool goes_on) {
   std::ifstream in(path, std::ios::binary);
   if (!in && !std::filesystem::exists(path))
     throw InputError(path.string() + " is gone; put a copy of it back, or go on from start.file in a new run directory");
@@ -112,14 +113,19 @@ double History::resume(const std::filesystem::path& path, double time_s, const s
                      "; restart with the scene of the first run, or start anew");
   long long kept_bytes = static_cast<long long>(line.size()) + 1;
   // A window's end is the same sum of ticks in both runs; the margin only forgives the last digit of other arithmetic.
-  const double last_kept = time_s + 1e-12 * std::max(1.0, std::abs(time_s));
+  const double margin = 1e-12 * std::max(1.0, std::abs(time_s)), last_kept = time_s + margin;
   double last = nan;
   rows_ = 0;
+  before_last_.reset();
   digest_ = digest_of(digest_of(0, line), "\n");
   while (std::getline(in, line) && !in.eof()) {  // at the end of file: a line without its newline, half written
     double time = nan;
     std::from_chars(line.data(), line.data() + line.size(), time);
     if (!(time <= last_kept)) break;
+    if (written && rows_ == written->rows && !before_last_ && time >= time_s - margin) {
+      if (goes_on) break;
+      before_last_ = Extent{kept_bytes, rows_, std::int64_t(digest_)};
+    }
     kept_bytes += static_cast<long long>(line.size()) + 1;
     digest_ = digest_of(digest_of(digest_, line), "\n");
     last = time;
@@ -140,12 +146,13 @@ double History::resume(const std::filesystem::path& path, double time_s, const s
 }
 
 void History::require_whole(const Extent& written, double time_s, double last_s) const {
-  if (bytes_ == written.bytes && rows_ == written.rows && std::int64_t(digest_) == written.digest) return;
+  const Extent found = extent();
+  if (found.bytes == written.bytes && found.rows == written.rows && found.digest == written.digest) return;
   const std::string text =
-      rows_ == written.rows
-          ? fmt::format("its {} rows are not those that the run wrote: they were changed", rows_)
+      found.rows == written.rows
+          ? fmt::format("its {} rows are not those that the run wrote: they were changed", found.rows)
           : fmt::format("it has {} rows up to t = {:g} s (the last of t = {:g} s), the run had written {}: rows are missing",
-                        rows_, time_s, last_s, written.rows);
+                        found.rows, time_s, last_s, written.rows);
   throw InputError("history.csv: " + text +
                    "; put a whole copy of it back, or say --allow-change history.csv to go on with it as it is");
 }
@@ -156,7 +163,8 @@ std::span<double> History::row(double time_s) {
   return values_;
 }
 
-void History::write() {
+void History::write(Row row) {
+  if (row == Row::off_schedule) drain(), before_last_ = extent();
   ++rows_;
   if (!file_.is_open()) return;
   if (statistics_) statistics_->add(values_);

@@ -49,21 +49,25 @@ class History {
   /// Starts a new file.
   void open(const std::filesystem::path& path);
 
-  /// What is in the file after drain(), as a checkpoint keeps it.
+  /// What is in the file after drain() but for a last row off schedule, as a checkpoint keeps it.
   struct Extent {
     std::int64_t bytes = 0, rows = 0, digest = 0;
   };
-  Extent extent() const { return {bytes_, rows_, std::int64_t(digest_)}; }
+  Extent extent() const { return before_last_.value_or(Extent{bytes_, rows_, std::int64_t(digest_)}); }
 
   /// Goes on with the file of an interrupted run: removes the rows after `time_s` and a half-written last line. With `written`,
   /// what the checkpoint says was there, rows that are missing or changed are an InputError that says what mends them; without,
-  /// gaps are accepted. So are other columns than those declared, never. Returns the time of the last row kept (nan: none).
-  double resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written = {});
+  /// gaps are accepted. So are other columns than those declared, never. A row of `time_s` beyond `written`, which was off
+  /// schedule, stays only where the run ends there all the same: not where it `goes_on`. Returns the time of the last row kept
+  /// (nan: none).
+  double resume(const std::filesystem::path& path, double time_s, const std::optional<Extent>& written = {}, bool goes_on = true);
 
   /// Begins the row of time `time_s` [s] and gives its values to fill, all nan but the first.
   std::span<double> row(double time_s);
-  /// Appends the row begun. Forces it out where the buffer is full or `flush_interval` has passed.
-  void write();
+  enum class Row : std::uint8_t { on_schedule, off_schedule };
+  /// Appends the row begun. Forces it out where the buffer is full or `flush_interval` has passed. One off schedule, at the end
+  /// of a run, is no part of extent(): a run that goes on from there leaves it out.
+  void write(Row row = Row::on_schedule);
   /// Everything written so far, in the file. Throws MachineFailure; the file then still ends with a whole row.
   void drain();
   /// The file on disk as it stands. Throws MachineFailure.
@@ -82,7 +86,8 @@ class History {
   std::string buffer_;
   OutputFile file_;
   long long bytes_ = 0, rows_ = 0;
-  std::uint32_t digest_ = 0;  ///< of these bytes: CRC-32
+  std::uint32_t digest_ = 0;           ///< of these bytes: CRC-32
+  std::optional<Extent> before_last_;  ///< where the last row is off schedule
   std::optional<RunningStatistics> statistics_;
   std::chrono::steady_clock::time_point drained_;
 };

@@ -50,7 +50,7 @@ io::Summary Driver::run(Simulation& simulation) {
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
   history.keep_statistics(mean_ranges(simulation.scenario().output, timeline.window_end_s(last)));
-  open_history(history, timeline.window_end_s(first), checkpoints.rows());
+  open_history(history, timeline.window_end_s(first), checkpoints.rows(), first < last);
   if (settings_.began) settings_.began();
   HistoryOutput rows(simulation, history);
   ProgressOutput progress(timeline, first, last, io::progress_style(parts_.world().rank, settings_.quiet),
@@ -146,11 +146,13 @@ std::int64_t Driver::last_window(const coupling::Timeline& timeline) const {
   return std::min<std::int64_t>(windows, timeline.windows());
 }
 
-/// A new file on rank 0, or that of the run that goes on at `time_s`. Collective; throws on all ranks alike.
-void Driver::open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const {
+/// A new file on rank 0, or that of the run that goes on at `time_s`, or has come to its end there. Collective; throws on all
+/// ranks alike.
+void Driver::open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written,
+                          bool goes_on) const {
   io::on_root(parts_.world().comm, [&] {
     if (settings_.restart)
-      history.resume(directory_.history(), time_s, settings_.accept_history ? std::nullopt : written);
+      history.resume(directory_.history(), time_s, settings_.accept_history ? std::nullopt : written, goes_on);
     else
       history.open(directory_.history());
   });

@@ -64,7 +64,7 @@ class Driver {
 
  private:
   std::int64_t last_window(const coupling::Timeline& timeline) const;
-  void open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written) const;
+  void open_history(io::History& history, double time_s, const std::optional<io::History::Extent>& written, bool goes_on) const;
   void begin_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window) const;
   static void take_if_due(Output& output, const Windows& done);
   static void finish_outputs(const std::vector<Output*>& outputs, Simulation& simulation, std::int64_t window);

@@ -31,15 +31,15 @@ bool HistoryOutput::due(const Windows& done) const {
 
 void HistoryOutput::take(const Windows& done) {
   for (std::int64_t n = done.before + 1; n <= done.now; ++n)
-    if (every_.due(n) || n == done.last) write(n);
+    if (every_.due(n) || n == done.last) write(n, every_.due(n) ? io::History::Row::on_schedule : io::History::Row::off_schedule);
 }
 
 void HistoryOutput::finish(std::int64_t) { history_.flush(); }
 
-void HistoryOutput::write(std::int64_t window) {
+void HistoryOutput::write(std::int64_t window, io::History::Row row) {
   if (!simulation_.has_rows()) return;
   simulation_.fill_row(window, history_.row(simulation_.timeline().window_end_s(window)));
-  history_.write();
+  history_.write(row);
 }
 
 ProgressOutput::ProgressOutput(const coupling::Timeline& timeline, std::int64_t first, std::int64_t last, io::ProgressStyle style,

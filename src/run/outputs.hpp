@@ -16,7 +16,7 @@ namespace spindrift::run {
 /// Over which a summary gives means: the whole run, and (the one that the report shows) the end of it.
 std::vector<io::TimeRange> mean_ranges(const coupling::OutputOptions& output, double end_s);
 
-/// A row of history.csv at the end of every output.history_every windows and of the last.
+/// A row of history.csv at the end of every output.history_every windows and of the last, which stays until the run goes on.
 class HistoryOutput final : public Output {
  public:
   HistoryOutput(Simulation& simulation, io::History& history);
@@ -27,7 +27,7 @@ class HistoryOutput final : public Output {
   void finish(std::int64_t window) override;
 
  private:
-  void write(std::int64_t window);
+  void write(std::int64_t window, io::History::Row row = io::History::Row::on_schedule);
 
   Simulation& simulation_;
   io::History& history_;

@@ -95,6 +95,32 @@ class History(Runs):
         self.assertEqual(len(self.history().splitlines()), 1 + 31 - 2)
 
 
+    def test_a_stop_between_two_rows_leaves_no_trace_in_the_run_that_goes_on(self):
+        every = ["--set", "output.history_every=10", "--set", "output.openfast=binary"]
+        once = self.path / "once"
+        self.run_case("--until", 3.0, *every, out=once)
+        self.run_case("--until", 1.5, *every)
+        stopped = self.history()
+        self.assertEqual([float(line.split(",")[0]) for line in stopped.splitlines()[1:]], [0.0, 1.0, 1.5])
+        self.run_case("--restart", "--until", 1.5, *every)  # nothing is left to do
+        self.assertEqual(self.history(), stopped)
+        self.run_case("--restart", "--until", 1.7, *every)
+        self.run_case("--restart", "--until", 3.0, *every)
+        for name in ("history.csv", "history.outb"):
+            self.assertEqual((self.out / name).read_bytes(), (once / name).read_bytes())
+        mine, theirs = (json.loads((folder / "summary.json").read_text()) for folder in (self.out, once))
+        self.assertEqual(mine["statistics"], theirs["statistics"])
+
+    def test_the_file_for_openfast_that_cannot_be_written_is_in_the_summary(self):
+        self.run_case("--until", 0.1)
+        (self.out / "history.outb/in_the_way").mkdir(parents=True)
+        self.run_case("--restart", "--until", 0.2, "--set", "output.openfast=binary", code=4)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["exit_code"], 4)
+        self.assertIn("history.outb", summary["exit_reason"])
+        self.assertIn("statistics", summary)
+
+
 class Folders(Runs):
     def test_one_command_for_the_first_and_for_every_further_job(self):
         other = self.path / "once"

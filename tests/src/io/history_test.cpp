@@ -217,6 +217,41 @@ TEST_CASE("statistics of a history without rows are nan, and the file must be th
   CHECK_THROWS_AS(io::history_statistics(folder / "absent.csv", {}), io::MachineFailure);
 }
 
+TEST_CASE("a last row off schedule stays until the run goes on", "[io][fast]") {
+  const test::Scratch folder("history");
+  const auto path = folder / "h.csv";
+  const auto declared = [](io::History& h) {
+    h.add({"x_m", "m", "A number."});
+    h.keep_statistics({{"whole", 0.0, 3.0}});
+  };
+  io::History::Extent extent;
+  {
+    io::History h;
+    declared(h);
+    h.open(path);
+    for (const double t : {0.0, 1.0}) h.row(t)[1] = t, h.write();
+    h.row(1.5)[1] = 1.5, h.write(io::History::Row::off_schedule);
+    h.flush(), extent = h.extent();
+  }
+  const std::string whole = io::read_file(path);
+  CHECK(extent.rows == 2);
+  {
+    io::History h;
+    declared(h);
+    CHECK(h.resume(path, 1.5, extent, false) == 1.5);
+    CHECK(h.statistics()->rows == 3);
+    CHECK(h.extent().digest == extent.digest);
+  }
+  CHECK(io::read_file(path) == whole);
+  for (int n = 0; n < 2; ++n) {  // once more, from the same checkpoint
+    io::History h;
+    declared(h);
+    CHECK(h.resume(path, 1.5, extent, true) == 1.0);
+    CHECK(h.statistics()->rows == 2);
+  }
+  CHECK(io::read_file(path) == whole.substr(0, whole.find("1.5")));
+}
+
 TEST_CASE("a history that lost rows or changed since the checkpoint is not gone on with", "[io][faults][fast]") {
   const test::Scratch folder("history");
   const auto path = folder / "h.csv";
