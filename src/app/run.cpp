@@ -58,26 +58,27 @@ io::RunDirectory open_directory(const RunArguments& arguments, MPI_Comm world) {
 }
 
 /// What a restart may change without being told so: how long the run is, what it writes, and where it is computed.
-constexpr const char* free_at_restart[] = {"time.end_s",         "output",     "checkpoint",         "runtime",
-                                           "coupling.placement", "sea.fields", "aero.flow.surfaces", "coupling.air_ranks"};
+const std::vector<std::string> free_at_restart = {"time.end_s",         "output",     "checkpoint",         "runtime",
+                                                  "coupling.placement", "sea.fields", "aero.flow.surfaces", "coupling.air_ranks"};
 
 /// A restart goes on with the run that the checkpoint is of: refused before anything is written where it would be another one.
-void require_same_run(io::RunDirectory& directory, const scene::Identity& now, const RunArguments& arguments, MPI_Comm world) {
+/// Returns whether the scene changed by what is allowed.
+bool require_same_run(io::RunDirectory& directory, const scene::Identity& now, const RunArguments& arguments, MPI_Comm world) {
   directory.identify(now.text());
-  if (!directory.resumes()) return;
+  if (!directory.resumes()) return false;
   const std::string saved = io::CheckpointSeries(world, directory.checkpoints(), 1).newest_identity();
   if (saved.empty()) {  // where none can be read, this says which and why
     if (!io::CheckpointSeries(world, directory.checkpoints(), 1).newest()) throw io::only_damaged(directory.checkpoints());
-    return;
+    return false;
   }
   for (const std::string& key : arguments.allowed)
     if (key != "history.csv" && !names_part_of(now, key) && !names_part_of(scene::Identity::parsed(saved), key))
       throw io::InputError("--allow-change " + key +
                            ": neither this scene nor that of the first run has a key or file of that name");
-  std::vector<std::string> free(std::begin(free_at_restart), std::end(free_at_restart));
+  std::vector<std::string> free = free_at_restart;
   free.insert(free.end(), arguments.allowed.begin(), arguments.allowed.end());
   const std::vector<scene::Difference> all = differences(scene::Identity::parsed(saved), now, free);
-  if (all.empty()) return;
+  if (all.empty()) return !differences(scene::Identity::parsed(saved), now, free_at_restart).empty();
   std::string text = fmt::format("--restart: {} of this scene {} not as in the run in {}:", all.size() == 1 ? "a part" : "parts",
                                  all.size() == 1 ? "is" : "are", directory.path().string());
   for (const scene::Difference& d : all) text += fmt::format("\n  {}: was {}, is {}", d.what, d.before, d.now);
@@ -311,7 +312,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   require_writable(arguments, world.comm);
   io::RunDirectory directory = open_directory(arguments, world.comm);
   stop.watch(scenario->runtime.wall_limit_s, directory.stop());
-  require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
+  const bool changed = require_same_run(directory, scene::Identity::of(echo, read->files()), arguments, world.comm);
   io::log_to_file(world.rank, directory.log());
   directory.write_scene(world.comm, echo);
   const io::BuildInfo& build = io::build_info();
@@ -325,7 +326,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     for (const std::string& crowded : affinity.crowding) spdlog::warn("{}", crowded);
 
   run::RunSettings settings{
-      .restart = directory.resumes(), .trace = arguments.trace, .quiet = arguments.quiet, .threads = threads};
+      .restart = directory.resumes(), .changed = changed, .trace = arguments.trace, .quiet = arguments.quiet, .threads = threads};
   settings.scene = arguments.scene, settings.record_graph = arguments.record_graph,
   settings.windows = windows_of(arguments.windows);
   settings.accept_history = std::ranges::find(arguments.allowed, "history.csv") != arguments.allowed.end();

@@ -49,6 +49,11 @@ io::Summary Driver::run(Simulation& simulation) {
   if (!settings_.restart && !stop_.agreed(comm).empty()) throw runtime::StopAsked();
   if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
+  if (const std::string settled = simulation.settled(); !settled.empty() && !settings_.changed && first <= last) {
+    last = first;
+    summary_.exit_reason = "done: nothing was left to do: " + settled;
+  }
+  if (settings_.restart && last <= first) simulation.nothing_left();
   history.keep_statistics(mean_ranges(simulation.scenario().output, timeline.window_end_s(last)));
   open_history(history, timeline.window_end_s(first), checkpoints.rows(), first < last);
   if (settings_.began) settings_.began();

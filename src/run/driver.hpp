@@ -26,6 +26,7 @@ namespace spindrift::run {
 struct RunSettings {
   std::optional<double> until_s;  ///< stop there, with a checkpoint, to be continued by restart
   bool restart = false;           ///< from the newest checkpoint of the directory
+  bool changed = false;           ///< the scene since, so that what had settled goes on
   bool trace = false;
   bool quiet = false;           ///< no progress
   int threads = 0;              ///< of this rank; 0: those of OpenMP

@@ -21,6 +21,8 @@ namespace spindrift::run {
 
 namespace {
 
+constexpr const char* settled_name = "flow/settled";
+
 /// Fields, walls and loads along the blades at the end of the run.
 class FinalFlow final : public Output {
  public:
@@ -96,16 +98,22 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
   if (air_.rotor() && !air_.steady()) air_.rotor()->placed_at(window);
   if (air_.motion()) air_.place(window, timeline_.window_s());
-  // Where nothing is left to do, what is said and written of the flow needs its residual and its slopes at walls.
-  if (air_.steady() && window >= timeline_.windows()) {
-    air_.solver().judgement().march.judge_only();
-    march_->run();
-  }
+  if (!file.has(settled_name)) return;
+  const std::vector<std::byte> bytes = file.read<std::byte>(settled_name);
+  settled_.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+/// What is said and written of the flow needs its residual and its slopes at walls.
+void FlowSimulation::nothing_left() {
+  if (!air_.steady()) return;
+  air_.solver().judgement().march.judge_only();
+  march_->run();
 }
 
 void FlowSimulation::save(io::CheckpointCopy& copy) {
   if (!chosen_.empty()) copy.set("preconditioner", chosen_);
   copy.set("way", std::int64_t(air_.start()));
+  if (!settled_.empty()) copy.write<std::byte>(settled_name, std::as_bytes(std::span(settled_)));
   write(copy, file_.arrays());
   if (!air_.rotor()) return;
   write_air_settings(copy, scenario_);
@@ -176,6 +184,7 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     solver.judgement().rows.all.clear();
     advance.failure = unconverged_windows(window + 1);
   }
+  settled_ = advance.settled;
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;

@@ -28,6 +28,8 @@ class FlowSimulation final : public Simulation {
 
   std::int64_t begin(const io::RunDirectory& directory) override;
   void restore(const io::CheckpointReader& file) override;
+  std::string settled() const override { return settled_; }
+  void nothing_left() override;
   void save(io::CheckpointCopy& copy) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
   coupling::OutputTask& output() override { return output_; }
@@ -59,7 +61,8 @@ class FlowSimulation final : public Simulation {
   coupling::Timeline timeline_;
   FlowCase air_;
   coupling::AirFile file_;
-  std::string chosen_;  ///< what preconditioner = "auto" became
+  std::string settled_;  ///< why, where the last advance() or the run before came to that
+  std::string chosen_;   ///< what preconditioner = "auto" became
   coupling::OutputTask output_;
   std::optional<runtime::Executor> march_;
   std::optional<FlowColumns> columns_;

@@ -49,6 +49,10 @@ class Simulation {
   virtual std::int64_t begin(const io::RunDirectory& directory) = 0;
   /// The state of a checkpoint of this run instead. Throws io::InputError where it is another run's.
   virtual void restore(const io::CheckpointReader& file) = 0;
+  /// Why the march had settled that restore() took; empty where it had not.
+  virtual std::string settled() const { return {}; }
+  /// @pre restore(), and no advance() follows: what is said and written of the state at the end needs no more.
+  virtual void nothing_left() {}
   /// Copies all that restore() wants, of the last window's end; of its start where the window failed.
   virtual void save(io::CheckpointCopy& copy) = 0;
 

@@ -187,6 +187,21 @@ class FlowRun(Folder):
                         self.assertEqual(last["time_s"], until)
                 self.assertEqual((whole / "history.csv").read_text(), (parts / "history.csv").read_text())
 
+    def test_a_steady_flow_that_has_settled_has_nothing_left_to_do(self):
+        scene, options = ROOT / "inputs/tutorials/wing_section.toml", ["--no-report", "--quiet"]
+        self.assertEqual(spindrift("run", scene, "--out", self.out, *options).returncode, 0)
+        before = (self.out / "history.csv").read_bytes()
+        means = json.loads((self.out / "summary.json").read_text())["statistics"]
+        for more in ((), ("--set", "time.end_s=500")):
+            self.assertEqual(spindrift("run", scene, "--out", self.out, *options, "--restart", *more).returncode, 0)
+            summary = json.loads((self.out / "summary.json").read_text())
+            self.assertIn("nothing was left to do", summary["exit_reason"])
+            self.assertEqual(summary["statistics"], means)
+            self.assertEqual((self.out / "history.csv").read_bytes(), before)
+        change = ("--set", "aero.flow.drop=1e-8", "--allow-change", "aero.flow.drop")
+        self.assertEqual(spindrift("run", scene, "--out", self.out, *options, "--restart", *change).returncode, 0)
+        self.assertGreater(len((self.out / "history.csv").read_bytes()), len(before))
+
     def test_the_automatic_preconditioner_is_written_down_and_kept(self):
         case = CASES / "cylinder_low_mach/cylinder.toml"
         options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]
