@@ -9,6 +9,43 @@ SCENE = ROOT / "inputs/leble_barakos/flexible_blades.toml"
 RIGID = ROOT / "inputs/leble_barakos/case3_engineering.toml"
 
 
+# Tower and blades that bend, under the controller, on land; the nacelle has all of the rotor but its inertia about the shaft.
+ON_LAND = """
+[time]
+end_s = 2.0
+window_s = 0.1
+step_s = 0.01
+
+[bodies.nacelle]                        # with the rotor, but for its inertia about the shaft
+mass_kg = 673998.0
+inertia_kg_m2 = [4.4e6, 9.0e7, 9.0e7]
+centre_m = [-2.4, 0.0, 118.4]
+
+[beams.tower]
+bodies = ["earth", "nacelle"]
+start_m = [0.0, 0.0, 0.0]
+end_m = [0.0, 0.0, 115.63]
+properties = "TURBINES/dtu_10mw/tower.csv"
+damping = [0.005, 0.02]
+
+[wind]
+speed_m_s = 11.0
+
+[aero]
+model = "bem"
+
+[rotor]
+body = "nacelle"
+hub_m = [-7.1, 0.0, 119.0]
+turbine = "TURBINES/dtu_10mw.toml"
+operating_point = "table"
+blade_structure = "TURBINES/dtu_10mw/blade_structure.csv"
+
+[control]
+model = "dtu"
+"""
+
+
 def column(folder, name):
     with open(folder / "history.csv") as f:
         rows = list(csv.DictReader(line for line in f if not line.startswith("#")))
@@ -45,6 +82,14 @@ class FlexibleBlades(Folder):
         n = -1
         torque = sum(column(bending, f"rotor.blade_{b}.root_edge_N_m")[n] for b in (1, 2, 3))
         self.assertGreater(torque, 0.5 * column(bending, "rotor.torque_N_m")[n])
+
+    def test_a_controlled_rotor_is_carried_by_a_nacelle_without_its_inertia_about_the_shaft(self):
+        scene = self.path / "on_land.toml"
+        scene.write_text(ON_LAND.replace("TURBINES", str(ROOT / "inputs/turbines")))
+        done = spindrift("check", scene)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        out = self.run_scene(scene, "on_land", "--set", "time.end_s=2.0")
+        self.assertTrue(.4 < max(column(out, "nacelle.surge_m")) < 1.0)
 
     def test_steps_too_long_for_the_blades_are_refused(self):
         done = spindrift("check", SCENE, "--set", "time.step_s=0.1")

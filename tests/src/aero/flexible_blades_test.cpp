@@ -61,8 +61,8 @@ TEST_CASE("as many blades as a turbine may have bend each for itself", "[aero][f
   std::ranges::fill(bending.rates, 7.0);
   bending.amplitude(most_blades - 1).setConstant(5.0);
   CHECK(std::ranges::all_of(bending.rates, [](double rate) { return rate == 7.0; }));
-  for (int b = 0; b + 1 < most_blades / 2; ++b)  // opposite blades hang to opposite sides
-    CHECK(bending.amplitude(b)[1] == Approx(-bending.amplitude(b + most_blades / 2)[1]).margin(1e-6));
+  for (int b = 2; b < most_blades / 2; ++b)  // left and right hang alike
+    CHECK(bending.amplitude(b)[1] == Approx(-bending.amplitude(most_blades - b)[1]).margin(1e-6));
 }
 
 TEST_CASE("a level blade hangs by its weight as a cantilever does", "[aero][fast]") {
