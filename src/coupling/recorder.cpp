@@ -148,8 +148,8 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
   // Bodies that are held before t = 0 are as they start: drivers and loads that depend on time begin there.
   static const bodies::Evaluation nothing;
   const bodies::Evaluation& now = state.motions.empty() ? nothing : floating_.multibody().evaluate(state, std::max(t, 0.0));
-  if (!now.report.ok()) {  // the next step says why
-    std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
+  if (!now.report.ok()) {                                                         // the next step says why
+    std::ranges::fill(row.subspan(1), std::numeric_limits<double>::quiet_NaN());  // all but the time
     return;
   }
   const auto bodies = floating_.multibody().bodies();
