@@ -81,6 +81,7 @@ AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::f
     fields.push_back({fmt::format("turbulence_{}", t + 1), carried == 1 ? "m2/s" : t == 0 ? "m2/s2" : "1/s"});
   volume_ =
       std::make_unique<io::GridFields>(comm, folder, "air", std::move(blocks), std::move(fields), choice.moves, choice.resume_s);
+  if (volume_->ends_with(choice.resume_s)) written_s_ = choice.resume_s;
   if (!choice.walls) return;
   // A surface for each of the grid's windows on a wall.
   std::vector<io::GridBlock> faces;
@@ -99,7 +100,9 @@ AirOutput::AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::f
       choice.moves, choice.resume_s);
 }
 
-Writing AirOutput::copy(std::int64_t number, double time_s) const {
+Writing AirOutput::copy(std::int64_t number, double time_s) {
+  if (written_s_ == time_s) return {};
+  written_s_ = time_s;
   Writing volume = copy_volume(number, time_s);
   if (!walls_) return volume;
   return [volume = std::move(volume), walls = copy_walls(number, time_s)] { volume(), walls(); };

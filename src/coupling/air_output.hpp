@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,16 @@ class AirOutput {
   AirOutput(MPI_Comm comm, const aero::FlowSolver& solver, const std::filesystem::path& folder, Choice choice);
   /// From now on the flow is that of another solver on the same tiles.
   void follow(const aero::FlowSolver& solver) { solver_ = &solver; }
-  /// A copy of the flow as it is, to be written while this object lives.
-  Writing copy(std::int64_t number, double time_s) const;
+  /// A copy of the flow as it is, to be written while this object lives; nothing where this time is what was written last, by the
+  /// run before too. Collective.
+  Writing copy(std::int64_t number, double time_s);
 
  private:
   Writing copy_volume(std::int64_t number, double time_s) const;
   Writing copy_walls(std::int64_t number, double time_s) const;
 
   const aero::FlowSolver* solver_;
+  std::optional<double> written_s_;  ///< handed out last
   std::unique_ptr<io::GridFields> volume_, walls_;
   std::vector<int> wall_block_;  ///< of walls_, by window of the grid; -1 where there is no wall
 };

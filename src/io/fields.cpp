@@ -206,6 +206,13 @@ void GridFields::write(std::int64_t tick, double time_s, std::span<const Values>
   series.append(time_s, impl_->grid(time_s, name));
 }
 
+bool GridFields::ends_with(double time_s) const {
+  const Series& series = impl_->series;
+  int same = rank_of(series.comm) == 0 && series.xdmf->last_s() == time_s ? 1 : 0;
+  MPI_Bcast(&same, 1, MPI_INT, 0, series.comm);
+  return same == 1;
+}
+
 struct ParticleFields::Impl {
   Series series;
 

@@ -52,6 +52,9 @@ class GridFields {
   /// cells begin there.
   void write(std::int64_t tick, double time_s, std::span<const Values> mine);
 
+  /// Collective. Whether the last output of the series is that of this time.
+  bool ends_with(double time_s) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -37,6 +37,8 @@ XdmfSeries::XdmfSeries(const std::filesystem::path& path, std::string_view name,
     const std::size_t kept = end_of_kept(before, resume_s);
     if (before.starts_with(text) && kept != std::string::npos) text = before.substr(0, kept);
   }
+  if (const std::size_t at = text.rfind(entry_mark); at != std::string::npos)
+    last_s_ = std::strtod(text.c_str() + at + entry_mark.size(), nullptr);
   end_ = static_cast<long long>(text.size());
   write_atomically(path, text + std::string(closing));
   file_ = OutputFile(path, OutputFile::Start::end);
@@ -47,6 +49,7 @@ void XdmfSeries::append(double time_s, std::string_view grid) {
   const std::string text = entry + std::string(closing);
   file_.write_at(end_, std::as_bytes(std::span(text)));
   end_ += static_cast<long long>(entry.size());
+  last_s_ = time_s;
 }
 
 }  // namespace spindrift::io

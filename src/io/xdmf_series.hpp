@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string_view>
 
 #include "src/io/atomic_file.hpp"
@@ -18,9 +19,13 @@ class XdmfSeries {
   /// Adds the <Grid> element of a time; in one write, over the closing lines.
   void append(double time_s, std::string_view grid);
 
+  /// Of the last entry; -infinity where there is none.
+  double last_s() const { return last_s_; }
+
  private:
   OutputFile file_;
   long long end_;  ///< of the last entry
+  double last_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace spindrift::io

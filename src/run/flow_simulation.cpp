@@ -272,8 +272,8 @@ std::size_t FlowSimulation::averaged(std::int64_t windows) const {
 }
 
 void FlowSimulation::write_at_end(std::int64_t window) {
-  const auto fields = std::make_shared<const coupling::AirOutput>(
-      world_.comm, air_.solver(), directory_.fields(), coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
+  const auto fields = std::make_shared<coupling::AirOutput>(world_.comm, air_.solver(), directory_.fields(),
+                                                            coupling::AirOutput::Choice{.walls = scenario_.aero.flow->surfaces});
   output_.hand_on([fields, write = fields->copy(window, timeline_.window_end_s(window))] { write(); });
   for (const std::string& doubt : doubts_of_walls(air_.solver(), scenario_, world_)) {
     doubts_.push_back(fmt::format("air: {}", doubt));

@@ -1,9 +1,16 @@
 """Actuator disc and lines in resolved air whose turbine stands on bodies: the flow of the same rotor without bodies where they do not move, same bits
 however it is run, what is refused. Usage: actuator_air_test.py SPINDRIFT. SPDX-License-Identifier: Apache-2.0"""
 import math
+import os
+import re
+import signal
+import subprocess
+import time
 import unittest
 
-from running import AIR_OF_LINES, DTU_IN_WIND, ROOT, Runs, rows
+import h5py
+
+from running import AIR_OF_LINES, DTU_IN_WIND, PROGRAM, ROOT, Runs, rows
 
 FLOW = DTU_IN_WIND + "%s\n" + AIR_OF_LINES + """
 drop = 1e-2
@@ -70,6 +77,30 @@ class ActuatorAir(Runs):
                 self.run_scene(FLOATING, name + "p", "--until", 1.2, settings=settings, threads=2)
                 self.run_scene(FLOATING, name + "p", "--restart", settings=settings)
                 self.assertEqual(self.text(name), self.text(name + "p"))
+
+    def test_each_field_of_a_standing_grid_is_there_once_with_its_points_however_the_run_was_stopped(self):
+        settings = ["output.air_interval_s=0.3", "time.end_s=300"]
+        folder = self.path / "run/fields"
+
+        def times():
+            found = [float(t) for t in re.findall(r'<Time Value="([^"]*)"', (folder / "air.xdmf").read_text())]
+            for path in folder.glob("air_*.h5"):
+                with h5py.File(path) as file, h5py.File(folder / os.fsdecode(file.attrs["points_file"])) as there:
+                    self.assertTrue(all("points" in block for block in there.values()))
+            return found
+
+        self.run_scene(HELD, "run", "--until", 0.3, settings=settings)
+        self.run_scene(HELD, "run", "--restart", "--until", 0.3, settings=settings)  # nothing is left to do
+        self.assertEqual(times(), [0.3])
+        words = [str(word) for word in (PROGRAM, "run", self.path / "scene.toml", "--quiet", "--no-report", "--out", self.path / "run", "--restart")]
+        process = subprocess.Popen(words + [word for text in settings for word in ("--set", text)], env={**os.environ, "OMP_NUM_THREADS": "1"})
+        while len(list(folder.glob("air_*.h5"))) < 2 and process.poll() is None:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=300), 5)
+        found = times()
+        self.assertGreater(len(found), 1)
+        self.assertEqual(found, sorted(set(found)))
 
     def test_a_gust_is_at_the_blades_at_once(self):
         gust = "wind.event={what='step', start_s=0.6, speed_change_m_s=1.0}"

@@ -119,6 +119,24 @@ TEST_CASE("a grid at rest is stored once, and a restart goes on with the series 
   check_by_python("grid " + (folder / "air.xdmf").string() + " resting 4");
 }
 
+TEST_CASE("a series knows what it ends with, after a restart too", "[io][fast]") {
+  const test::Scratch folder("fields");
+  const std::vector<double> points(3 * 12), two(2);
+  const io::GridFields::Values values{0, {0, 0, 0}, {2, 1, 1}, points, {two}};
+  const auto series = [&](double resume_s) {
+    return io::GridFields(MPI_COMM_SELF, folder.path(), "air", {{"b", 2, 1, 1}}, {{"p", "Pa", 1}}, false, resume_s);
+  };
+  {
+    auto out = series(io::from_the_start);
+    CHECK_FALSE(out.ends_with(0.1));
+    for (const double t : {0.1, 0.3}) out.write(std::int64_t(10 * t), t, std::span(&values, 1));
+    CHECK(out.ends_with(0.3));
+  }
+  CHECK(series(0.3).ends_with(0.3));
+  CHECK_FALSE(series(0.2).ends_with(0.2));
+  CHECK(series(0.2).ends_with(0.1));
+}
+
 TEST_CASE("particles read back as a time series, none as no entry", "[io][fast]") {
   const test::Scratch folder("fields");
   write_particles(MPI_COMM_SELF, folder.path(), 7);
