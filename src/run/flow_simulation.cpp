@@ -207,23 +207,34 @@ std::string FlowSimulation::unconverged_windows(std::int64_t window) const {
   const aero::FlowSolver& solver = air_.solver();
   const aero::MarchState& march = solver.march();
   const aero::FlowOptions& o = *scenario_.aero.flow;
-  const double t = timeline_.window_end_s(window), most = o.unconverged_share * double(timeline_.windows());
+  const double t = timeline_.window_end_s(window);
   if (march.spent && march.unconverged == 1)
     spdlog::warn(
         "air: the window to t = {:.6g} s spent its {} pseudo-steps; the flux balance is at {:.2g} of that at its start, {:.2g} "
         "is asked for; {}",
         t, march.steps - 1, march.balance_drop(), o.drop, solver.worst_cells(world_.comm));
+  const std::string failure = too_many_unconverged();
+  return failure.empty() ? failure
+                         : fmt::format("{}; the last, to t = {:.6g} s, ended at {:.2g}; {}", failure, t, march.balance_drop(),
+                                       solver.worst_cells(world_.comm));
+}
+
+/// Of the windows of an unsteady march so far, those before a restart too; empty where they are no more than may be.
+std::string FlowSimulation::too_many_unconverged() const {
+  const aero::MarchState& march = air_.solver().march();
+  const aero::FlowOptions& o = *scenario_.aero.flow;
+  const double most = o.unconverged_share * double(timeline_.windows());
   if (double(march.unconverged) <= most) return {};
   return fmt::format(
       "aero: {} of {} windows spent their {} pseudo-steps without the drop of {:.2g} (aero.flow.max_pseudo_steps, .drop), at "
-      "most "
-      "{:g} may (aero.flow.unconverged_share); the last, to t = {:.6g} s, ended at {:.2g}; {}",
-      march.unconverged, march.ended, solver.setting().march.max_steps, o.drop, std::floor(most), t, march.balance_drop(),
-      solver.worst_cells(world_.comm));
+      "most {:g} may (aero.flow.unconverged_share)",
+      march.unconverged, march.ended, air_.solver().setting().march.max_steps, o.drop, std::floor(most));
 }
 
 std::string FlowSimulation::failure_at_end() const {
   const aero::FlowOptions& o = *scenario_.aero.flow;
+  if (!air_.steady())
+    if (std::string failure = too_many_unconverged(); !failure.empty()) return failure;
   if (!air_.steady() || o.drop <= 0.0) {
     if (air_.start() == FlowCase::Start::first_order)
       return "aero: the pseudo-steps of the scene are spent while the march was of first order, which is no answer; --restart "

@@ -48,6 +48,7 @@ class FlowSimulation final : public Simulation {
  private:
   bool begin_again(const std::string& why);
   std::string unconverged_windows(std::int64_t window) const;
+  std::string too_many_unconverged() const;
   void use(const std::string& preconditioner, const std::string& reason);
   void record();
   std::size_t averaged(std::int64_t windows) const;

@@ -102,6 +102,12 @@ class ActuatorAir(Runs):
         self.assertGreater(len(found), 1)
         self.assertEqual(found, sorted(set(found)))
 
+    def test_windows_that_did_not_converge_fail_a_restart_that_has_nothing_left_to_do_too(self):
+        settings = ["aero.flow.drop=1e-12", "aero.flow.max_pseudo_steps=1", "aero.flow.unconverged_share=0.99"]
+        self.run_scene(ALONE, "run", settings=settings, code=3)
+        self.assertEqual(self.rows("run")[-1]["time_s"], 1.5)  # the last window was one too many
+        self.assertIn("windows spent their", self.run_scene(ALONE, "run", "--restart", settings=settings, code=3))
+
     def test_a_gust_is_at_the_blades_at_once(self):
         gust = "wind.event={what='step', start_s=0.6, speed_change_m_s=1.0}"
         for text, name in ((HELD, "held"), (ALONE, "alone")):
