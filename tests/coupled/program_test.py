@@ -124,7 +124,7 @@ class Program(Folder):
         for (ranks, threads, placement), p in found.items():
             self.assertAlmostEqual(sum(p["parts_core_s"].values()), ranks * threads * p["wall_s"], delta=1e-6 * work)
             if placement == "bulk-synchronous":
-                self.assertGreater(1.01 * p["wall_s"], found[ranks, threads, "shared"]["wall_s"])
+                self.assertGreater(1.05 * p["wall_s"], found[ranks, threads, "shared"]["wall_s"])  # lists of tasks have anomalies of some per cent
             elif ranks == 1:
                 self.assertGreater(1.0001 * p["wall_s"], p["critical_path_s"])
         self.assertGreater(found[2, 1, "shared"]["messages"], 0)
