@@ -123,15 +123,15 @@ class ActuatorAir(Runs):
         self.assertAlmostEqual(self.rows("held_gust")[-1]["rotor.thrust_N"] / self.rows("alone_gust")[-1]["rotor.thrust_N"], 1.0, delta=1e-9)
 
     def test_a_wind_that_changes_begins_as_that_of_the_first_instant(self):
-        drop = "aero.flow.drop=1e-6"
+        drop = ["aero.flow.drop=1e-6", "aero.flow.max_pseudo_steps=200"]
         table = self.path / "table.csv"
         for rows_of, settings in (("speed_m_s,direction_deg\n0,%s,20\n100,%s,20" % (11.0, 11.0), ["wind.speed_m_s=11.0", "wind.direction_deg=20.0"]),
                                   ("speed_m_s,vertical_m_s\n0,%s,2\n100,%s,2" % (11.0, 11.0), ["wind.speed_m_s=%.17g" % math.hypot(11.0, 2.0), "aero.flow.incidence_deg=%.17g" % math.degrees(math.atan2(2.0, 11.0))])):
             table.write_text("time_s," + rows_of + "\n")
             for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
                 with self.subTest(name=name, table=rows_of):
-                    self.run_scene(text, name + "_table", "--overwrite", settings=[drop, f"wind.table={table}"])
-                    self.run_scene(text, name, "--overwrite", settings=[drop, *settings])
+                    self.run_scene(text, name + "_table", "--overwrite", settings=[*drop, f"wind.table={table}"])
+                    self.run_scene(text, name, "--overwrite", settings=[*drop, *settings])
                     for a, b in zip(self.rows(name + "_table")[1:], self.rows(name)[1:]):
                         self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-5)
                         self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-5)
@@ -147,8 +147,9 @@ class ActuatorAir(Runs):
     def test_an_incidence_is_in_winds_that_change_and_in_their_columns(self):
         late = "wind.event={what='step', start_s=100.0, speed_change_m_s=2.0}"
         for text, name in ((HELD, "held"), (ALONE, "alone")):
-            self.run_scene(text, name, settings=["aero.flow.incidence_deg=8.0"])
-            self.run_scene(text, name + "_late", settings=["aero.flow.incidence_deg=8.0", late])
+            inclined = ["aero.flow.incidence_deg=8.0", "aero.flow.max_pseudo_steps=200"]
+            self.run_scene(text, name, settings=inclined)
+            self.run_scene(text, name + "_late", settings=[*inclined, late])
             a, b = self.rows(name)[-1], self.rows(name + "_late")[-1]
             self.assertAlmostEqual(b["rotor.thrust_N"] / a["rotor.thrust_N"], 1.0, delta=1e-9)
         self.assertAlmostEqual(self.rows("held")[-1]["rotor.wind_z_m_s"] / self.rows("held")[-1]["rotor.wind_x_m_s"], math.tan(math.radians(8.0)), delta=1e-5)
