@@ -133,8 +133,8 @@ class ActuatorAir(Runs):
                     self.run_scene(text, name + "_table", "--overwrite", settings=[*drop, f"wind.table={table}"])
                     self.run_scene(text, name, "--overwrite", settings=[*drop, *settings])
                     for a, b in zip(self.rows(name + "_table")[1:], self.rows(name)[1:]):
-                        self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-5)
-                        self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-5)
+                        self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-4)
+                        self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-4)
 
     def test_a_step_at_the_start_is_the_higher_wind(self):
         for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
