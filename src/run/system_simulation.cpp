@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -242,7 +243,7 @@ std::int64_t SystemSimulation::take_over() {
     refuse("its bodies and joints are not those of this scene");
   const auto& potential = floating_.scenario().sea.potential;
   if (potential && potential->radiation == "convolution" && file.has(step_of_bodies)) {
-    const double was = file.number(step_of_bodies), is = step_s(timeline);
+    const double was = file.read<double>(step_of_bodies).at(0), is = step_s(timeline);
     if (std::abs(was - is) > 1e-9 * is)
       refuse(
           fmt::format("its water remembers the bodies at steps of {:g} s (sea.potential.radiation \"convolution\"), here they "
@@ -298,7 +299,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   copy.set("steps", steps_);
   copy.write<double>("bodies/state", packed);
   copy.set("bodies/works", std::int64_t(state_.work.size()));
-  copy.set(step_of_bodies, step_s(floating_.timeline()));
+  copy.write<double>(step_of_bodies, std::array{step_s(floating_.timeline())});
   if (const std::vector<double> history = window_.history(); !history.empty()) {
     copy.write<double>("coupling/form", form_of(floating_.scenario().coupling));
     copy.write<double>("coupling/history", history);

@@ -86,7 +86,8 @@ TEST_CASE("a start from a file is refused where the water remembers other steps 
   const Folder folder("start_steps");
   const std::string scene = SPINDRIFT_SOURCE_DIR "/tests/extremes/potential.toml";
   REQUIRE(run_scene(scene, {}, folder.path() / "first", {.until_s = 0.2, .quiet = true}).exit_code == 0);
-  const std::string from = "start.file='" + (folder.path() / "first/history.csv").string() + "'";
+  const auto checkpoint = std::filesystem::directory_iterator(folder.path() / "first/checkpoints")->path();
+  const std::string from = "start.file='" + checkpoint.string() + "'";
   CHECK(run_scene(scene, {from}, folder.path() / "same", {.until_s = 0.4, .quiet = true}).exit_code == 0);
   CHECK_THROWS_WITH(run_scene(scene, {from, "time.step_s=0.025", "sea.potential.memory_s=7.5"}, folder.path() / "other"),
                     Catch::Contains("steps of 0.05 s"));
