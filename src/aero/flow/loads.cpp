@@ -10,8 +10,8 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile. At a wall with a wall
-/// function pressure includes the turbulence's push, 2/3 rho k of two equations, and friction is along the wall.
+/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile. Where two equations meet
+/// a wall function pressure includes the turbulence's push, 2/3 rho k, and friction is along the wall.
 template <class Body>
 void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {
   for (const FlowBoundary& boundary : tile.boundaries) {
@@ -24,7 +24,7 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
       if (viscous.active && sticks(*boundary.condition)) {
         const gas::Conserved<double> flux = wall_friction(tile, state, viscous, side, k, j, i);
         friction = {flux.mx, flux.my, flux.mz};
-        if (boundary.condition->wall_law) {
+        if (boundary.condition->wall_law && tile.turbulence == 2) {
           const Eigen::Vector3d n(f.nx, f.ny, f.nz);
           const double push = friction.dot(n);
           friction -= push * n, p += push / f.area;
