@@ -123,18 +123,18 @@ class ActuatorAir(Runs):
         self.assertAlmostEqual(self.rows("held_gust")[-1]["rotor.thrust_N"] / self.rows("alone_gust")[-1]["rotor.thrust_N"], 1.0, delta=1e-9)
 
     def test_a_wind_that_changes_begins_as_that_of_the_first_instant(self):
-        drop = ["aero.flow.drop=1e-6", "aero.flow.max_pseudo_steps=200"]
+        whole = ["aero.flow.drop=1e-6", "aero.flow.max_pseudo_steps=25", "time.end_s=0.6"]
         table = self.path / "table.csv"
         for rows_of, settings in (("speed_m_s,direction_deg\n0,%s,20\n100,%s,20" % (11.0, 11.0), ["wind.speed_m_s=11.0", "wind.direction_deg=20.0"]),
                                   ("speed_m_s,vertical_m_s\n0,%s,2\n100,%s,2" % (11.0, 11.0), ["wind.speed_m_s=%.17g" % math.hypot(11.0, 2.0), "aero.flow.incidence_deg=%.17g" % math.degrees(math.atan2(2.0, 11.0))])):
             table.write_text("time_s," + rows_of + "\n")
-            for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
+            for text, name in ((HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
                 with self.subTest(name=name, table=rows_of):
-                    self.run_scene(text, name + "_table", "--overwrite", settings=[*drop, f"wind.table={table}"])
-                    self.run_scene(text, name, "--overwrite", settings=[*drop, *settings])
-                    for a, b in zip(self.rows(name + "_table")[1:], self.rows(name)[1:]):
-                        self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-4)
-                        self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-4)
+                    self.run_scene(text, name + "_table", "--overwrite", settings=[*whole, f"wind.table={table}"])
+                    self.run_scene(text, name, "--overwrite", settings=[*whole, *settings])
+                    for a, b in zip(self.rows(name + "_table"), self.rows(name), strict=True):
+                        self.assertAlmostEqual(a["rotor.thrust_N"] / b["rotor.thrust_N"], 1.0, delta=1e-4)  # the march's scale is the horizontal speed
+                        self.assertAlmostEqual(a["rotor.torque_N_m"] / b["rotor.torque_N_m"], 1.0, delta=1e-3)
 
     def test_a_step_at_the_start_is_the_higher_wind(self):
         for text, name in ((HELD, "held"), (HELD + "[start]\nair_steps = 10\n", "settled"), (ALONE, "alone")):
@@ -145,9 +145,9 @@ class ActuatorAir(Runs):
                 self.assertAlmostEqual(first[0] / first[1], 1.0, delta=1e-2)
 
     def test_an_incidence_is_in_winds_that_change_and_in_their_columns(self):
+        inclined = ["aero.flow.incidence_deg=8.0", "aero.flow.max_pseudo_steps=20"]
         late = "wind.event={what='step', start_s=100.0, speed_change_m_s=2.0}"
         for text, name in ((HELD, "held"), (ALONE, "alone")):
-            inclined = ["aero.flow.incidence_deg=8.0", "aero.flow.max_pseudo_steps=200"]
             self.run_scene(text, name, settings=inclined)
             self.run_scene(text, name + "_late", settings=[*inclined, late])
             a, b = self.rows(name)[-1], self.rows(name + "_late")[-1]

@@ -1,10 +1,10 @@
 // What a scene may give at the sides of the air: temperatures of walls and the turbulence of the wind.
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "kernels/turbulence/model_sa.hpp"
+#include "src/aero/grid/wall_distance.hpp"
 #include "tests/src/aero/flow/flows.hpp"
 
 using namespace spindrift;
@@ -100,7 +100,7 @@ TEST_CASE("friction of a wall function is along the wall, the turbulence's push 
   const PatchCondition open{Condition::far_field, false};
   Case c(planar_box({.ni = 8, .nj = 8}), s,
          {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"j_min", {.condition = Condition::wall_function, .loads = true}}});
-  for (FlowTile& tile : c.solver->tiles()) std::ranges::fill(tile.geometry->wall_distance_data.span(), 0.1);
+  fill_wall_distance(*c.store, wall_surface(c.grid, std::vector<std::string>{"j_min"}));
   c.prepare();
   c.run();
   double push = 0.0, gas_push = 0.0, drag = 0.0;
