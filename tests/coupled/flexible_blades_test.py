@@ -89,7 +89,9 @@ class FlexibleBlades(Folder):
         done = spindrift("check", scene)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         out = self.run_scene(scene, "on_land", "--set", "time.end_s=2.0")
-        self.assertTrue(.4 < max(column(out, "nacelle.surge_m")) < 1.0)
+        # A tower of 0.25 Hz under 825 t bends by its thrust over 2 MN/m, which is 0.7 m, and from rest by nearly twice as much.
+        still = max(column(out, "rotor.thrust_N")) / 2.04e6
+        self.assertTrue(1.2 < max(column(out, "nacelle.x_m")) / still < 2.0)
 
     def test_steps_too_long_for_the_blades_are_refused(self):
         done = spindrift("check", SCENE, "--set", "time.step_s=0.1")
