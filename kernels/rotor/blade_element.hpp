@@ -149,16 +149,16 @@ ElementState solve_element(const Annulus& s, double normal_wind, double tangenti
   return best.balanced ? best : element_forces(s, normal_wind, tangential_wind, polar);
 }
 
-/// Skewed wake in place: induction grows towards the edge of the disc that lies downwind (Pitt & Peters 1981 in the form of
-/// Burton et al., Wind Energy Handbook, eq. 3.112 f.). `across`: r/R times the cosine between the blade and the wind's direction
-/// in the disc.
+/// Skewed wake in place: induction grows towards the edge of the disc that lies downwind (Pitt & Peters 1981: 15 pi/64 over the
+/// 1/2 of the mean induction, as AeroDyn has it). `across`: r/R times the cosine between the blade and the wind's direction in
+/// the disc.
 template <class Polar>
 ElementState skewed(const Annulus& s, const ElementState& level, double normal_wind, double tangential_wind, double skew,
                     double across, const Polar& polar) {
   const double a = level.axial_induction;
   if (!level.balanced || a <= 0.0 || a >= 1.0) return level;  // the model is for windmills
   const double wake = std::min((0.6 * a + 1.0) * skew, 0.45 * pi);
-  const double local = a * (1.0 + 15.0 * pi / 64.0 * std::tan(0.5 * wake) * across);
+  const double local = a * (1.0 + 15.0 * pi / 32.0 * std::tan(0.5 * wake) * across);
   const double tangential =
       level.has_inductions() ? tangential_wind * (1.0 + level.tangential_induction) : level.speed * std::cos(level.inflow);
   ElementState out = element_forces(s, normal_wind * (1.0 - local), tangential, polar);
