@@ -240,17 +240,17 @@ void print_all_blade_modes(const FloatingSystem& floating) {
 void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start{}\n",
              floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
-  std::size_t free = 0;
   for (const bodies::Mode& mode : linearisation.modes)
     if (mode.eigenvalue == 0.0)
-      ++free;
+      continue;
     else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
       fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
                  1.0 / mode.period_s(), 1e-2 * std::round(1e4 * mode.damping_ratio()) + 0.0);  // + 0: no minus before zero
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", mode.name, mode.eigenvalue.real(),
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
-  if (free > 0) fmt::print("  {} of {} are free: neither stiffness nor damping\n", free, linearisation.modes.size());
+  if (const Eigen::Index all = linearisation.matrix.rows() / 2; linearisation.free > 0)
+    fmt::print("  {} of {} freedoms without stiffness\n", linearisation.free, all);
   if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
     fmt::print(
         "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");

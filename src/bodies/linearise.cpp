@@ -93,6 +93,9 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   system.open_chart(state, t_s);  // direction names need the tangent at the state
   const dense::Eigenpairs eigen = dense::eigenpairs(result.matrix);
   const double largest = eigen.values.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd stiffness = dense::singular_values(result.matrix.bottomLeftCorner(n, n)).values;
+  const double none = free_fraction * free_fraction * std::max(largest * largest, stiffness.maxCoeff());
+  result.free = (stiffness.array() <= none).count();
   for (Eigen::Index k = 0; k < 2 * n; ++k) {
     std::complex<double> lambda = eigen.values[k];
     if (lambda.imag() < 0.0) continue;

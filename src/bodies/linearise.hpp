@@ -25,6 +25,7 @@ struct Mode {
 struct Linearisation {
   Eigen::MatrixXd matrix;   ///< A, 2n x 2n: chart positions, then velocities
   std::vector<Mode> modes;  ///< fastest first; free directions have eigenvalue 0
+  Eigen::Index free = 0;    ///< freedoms without stiffness, n less the rank of A's stiffness
   StepReport report;        ///< not ok(): the state could not be evaluated, no modes
 };
 

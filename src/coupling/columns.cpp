@@ -354,7 +354,7 @@ std::vector<io::ColumnSection> column_sections() {
                      "yaw_drive), about its centre of mass",
                      wrench_columns()),
           section_of("JOINT.",
-                     "each joint: its reaction; symmetry_BODY is what holds a body in a plane of symmetry (sea.tank.sides_y)",
+                     "each joint: its reaction; symmetry_BODY and plane_BODY hold bodies in the plane of a half or a 2-D sea",
                      wrench_columns()),
           section_of("BEAM.", "each beam: how it is bent and the loads at its ends", beam_columns()),
           section_of("joints.", "scenes with joints", constraint_columns()),

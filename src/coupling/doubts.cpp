@@ -370,10 +370,9 @@ void doubt_top_heavy(scene::Doubts& doubts, const FloatingSystem& floating, cons
     const Motion &now = start.state.motions[b], &rest = found.state.motions[b];
     const Eigen::Vector3d up = rest.attitude * (now.attitude.conjugate() * Eigen::Vector3d::UnitZ());
     const double over = rest.position.z(), heel = std::acos(std::clamp(up.z(), -1.0, 1.0)) / radians_per_degree;
-    const bool rolls = !floating.scenario().sea.particles->planar() && found.unstable == "roll of " + name;
     std::string what;
     if (heel > side_deg) what = fmt::format("the body capsizes: it rests turned by {:.3g} degrees from its start", heel);
-    if ((rolls || found.unstable == "pitch of " + name) && over > high * bodies::extent(body))
+    if ((found.unstable == "roll of " + name || found.unstable == "pitch of " + name) && over > high * bodies::extent(body))
       what =
           fmt::format("{} is unstable where the body floats, its centre of mass {:.3g} m over the water", found.unstable, over);
     if (!what.empty())

@@ -100,7 +100,7 @@ FloatingSystem::FloatingSystem(Scenario scenario)
     beams_ = make_beams(s.beams, s.bodies, bodies, joints);
     add_beams(s, beams_, sources);
   }
-  for (bodies::Joint& joint : joints_of_symmetry(s)) joints.push_back(std::move(joint));
+  for (bodies::Joint& joint : joints_in_plane(s)) joints.push_back(std::move(joint));
   if (!s.moorings.empty()) {
     moorings_.emplace(names, start, line_environment(s, sea_));
     add_moorings(s, *moorings_, sources);

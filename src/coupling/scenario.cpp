@@ -86,7 +86,9 @@ void check_particles(scene::Document& document, const Scenario& s) {
   const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
   for (const sea::OptionProblem& p : particle_problems(s.sea, s.waves, sea_environment(s.environment), bodies))
     document.problem(p.key, p.what, p.follows_from);
-  if (s.sea.tank->symmetric() && !s.sea.particles->planar())
+  if (s.sea.particles->planar())
+    for (const sea::OptionProblem& p : out_of_plane_problems(s)) document.problem(p.key, p.what, p.follows_from);
+  else if (s.sea.tank->symmetric())
     for (const sea::OptionProblem& p : symmetry_problems(s, s.sea.tank->y_m[0])) document.problem(p.key, p.what, p.follows_from);
   std::vector<std::string> columns;
   for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);

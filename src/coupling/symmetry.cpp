@@ -20,7 +20,47 @@ const char* const key_of_plane = "sea.tank.sides_y";
 bool meets_particles(const bodies::BodyOptions& o) {
   return !o.cylinders.empty() || !o.boxes.empty() || !o.spheres.empty() || !o.meshes.empty();
 }
-std::string joint_name(const std::string& body) { return "symmetry_" + body; }
+// What begins the names of the joints that hold bodies in the plane.
+constexpr const char *of_symmetry = "symmetry_", *of_two_dimensions = "plane_";
+
+/// What moves bodies out of the plane, which `key` asks for.
+class InPlane {
+ public:
+  InPlane(std::string key, std::string plane, std::vector<sea::OptionProblem>& problems)
+      : key_(std::move(key)), plane_(std::move(plane)), problems_(problems) {}
+
+  void require_start(const std::string& name, const bodies::BodyOptions& o) {
+    const std::string section = "bodies." + name + ".";
+    if (o.displacement_m.y() != 0.0) out_of_plane(section + "displacement_m", "along y");
+    if (o.rotation.x() != 0.0 || o.rotation.z() != 0.0) out_of_plane(section + "rotation_deg", "in roll or yaw");
+    if (o.velocity_m_s.y() != 0.0) out_of_plane(section + "velocity_m_s", "along y");
+    if (o.omega_rad_s.x() != 0.0 || o.omega_rad_s.z() != 0.0) out_of_plane(section + "omega_rad_s", "in roll or yaw");
+  }
+  void require_drivers(const Scenario& s, const std::string& prefix) {
+    std::set<std::string> held{"earth"};
+    for (const auto& [name, body] : s.bodies)
+      if (meets_particles(body)) held.insert(name);
+    for (const auto& [name, joint] : s.joints) {
+      if (name.starts_with(prefix) && held.contains(name.substr(prefix.size())))
+        wrong("joints." + name, fmt::format("has the name of what holds a body in {}: choose another", plane_));
+      if (!std::ranges::all_of(joint.bodies, [&](const std::string& body) { return held.contains(body); })) continue;
+      const double along = std::abs(joint.axis.normalized().y());
+      if (joint.rotation && along < 1.0 - close)
+        wrong("joints." + name + ".rotation", fmt::format("turns a body out of {}: its axis is not y", plane_));
+      if (joint.translation && along > close)
+        wrong("joints." + name + ".translation", fmt::format("drives a body out of {}: along y", plane_));
+    }
+  }
+
+ private:
+  void wrong(std::string key, std::string what) { problems_.push_back({std::move(key), std::move(what), key_}); }
+  void out_of_plane(std::string key, const std::string& how) {
+    wrong(std::move(key), fmt::format("is {}: bodies stay in {} ({})", how, plane_, key_));
+  }
+
+  const std::string key_, plane_;
+  std::vector<sea::OptionProblem>& problems_;
+};
 
 /// Of one body with shapes.
 class Symmetry {
@@ -37,17 +77,10 @@ class Symmetry {
     const Eigen::Matrix3d& i = o_.inertia_kg_m2;
     if (std::max(std::abs(i(0, 1)), std::abs(i(1, 2))) > close * i.diagonal().maxCoeff())
       wrong("inertia_kg_m2", fmt::format("has Ixy {:.4g}, Iyz {:.4g}: {} wants none", i(0, 1), i(1, 2), key_of_plane));
-    if (o_.displacement_m.y() != 0.0) out_of_plane("displacement_m", "along y");
-    if (o_.rotation.x() != 0.0 || o_.rotation.z() != 0.0) out_of_plane("rotation_deg", "in roll or yaw");
-    if (o_.velocity_m_s.y() != 0.0) out_of_plane("velocity_m_s", "along y");
-    if (o_.omega_rad_s.x() != 0.0 || o_.omega_rad_s.z() != 0.0) out_of_plane("omega_rad_s", "in roll or yaw");
   }
 
  private:
   void wrong(const std::string& key, std::string what) { problems_.push_back({key_ + "." + key, std::move(what), key_of_plane}); }
-  void out_of_plane(const std::string& key, const std::string& how) {
-    wrong(key, fmt::format("is {}: bodies stay in the plane of symmetry ({})", how, key_of_plane));
-  }
   Eigen::Vector3d image(const Eigen::Vector3d& x) const { return image_across(plane_, x); }
   bool same(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const { return (a - b).norm() <= near_; }
   bool same(double a, double b) const { return std::abs(a - b) <= near_; }
@@ -107,22 +140,13 @@ std::vector<sea::OptionProblem> symmetry_problems(const Scenario& s, double plan
   const auto wrong = [&](std::string key, std::string what) {
     problems.push_back({std::move(key), std::move(what), key_of_plane});
   };
-  std::set<std::string> held{"earth"};
+  InPlane in_plane(key_of_plane, "the plane of symmetry", problems);
   for (const auto& [name, body] : s.bodies) {
     if (!meets_particles(body)) continue;
-    held.insert(name);
     Symmetry(name, body, plane, problems).require();
+    in_plane.require_start(name, body);
   }
-  for (const auto& [name, joint] : s.joints) {
-    if (name.starts_with("symmetry_") && held.contains(name.substr(std::string("symmetry_").size())))
-      wrong("joints." + name, "has the name of what holds a body in the plane of symmetry: choose another");
-    if (!std::ranges::all_of(joint.bodies, [&](const std::string& body) { return held.contains(body); })) continue;
-    const double along = std::abs(joint.axis.normalized().y());
-    if (joint.rotation && along < 1.0 - close)
-      wrong("joints." + name + ".rotation", "turns a body out of the plane of symmetry: its axis is not y");
-    if (joint.translation && along > close)
-      wrong("joints." + name + ".translation", "drives a body out of the plane of symmetry: along y");
-  }
+  in_plane.require_drivers(s, of_symmetry);
   if (s.has_waves() && std::abs(std::sin(s.waves.direction)) > 1e-9)
     wrong("waves.direction_deg", fmt::format("must be 0 or 180 with {} = \"symmetric\": waves travel along x", key_of_plane));
   if (s.has_waves() && s.waves.spreading_exponent)
@@ -134,12 +158,22 @@ std::vector<sea::OptionProblem> symmetry_problems(const Scenario& s, double plan
   return problems;
 }
 
-std::vector<bodies::Joint> joints_of_symmetry(const Scenario& s) {
+std::vector<sea::OptionProblem> out_of_plane_problems(const Scenario& s) {
+  std::vector<sea::OptionProblem> problems;
+  InPlane in_plane("sea.particles.dimensions", "the plane of a sea of two dimensions", problems);
+  for (const auto& [name, body] : s.bodies)
+    if (meets_particles(body)) in_plane.require_start(name, body);
+  in_plane.require_drivers(s, of_two_dimensions);
+  return problems;
+}
+
+std::vector<bodies::Joint> joints_in_plane(const Scenario& s) {
   std::vector<bodies::Joint> joints;
-  if (!s.has_particles() || !s.sea.tank || !s.sea.tank->symmetric()) return joints;
+  if (!s.has_particles() || !(s.sea.particles->planar() || s.sea.tank->symmetric())) return joints;
+  const std::string prefix = s.sea.particles->planar() ? of_two_dimensions : of_symmetry;
   for (std::size_t b = 0; b < s.bodies.size(); ++b)
     if (const auto& [name, body] = s.bodies[b]; meets_particles(body) && !is_kept_in_plane(s.joints, name))
-      joints.push_back({.name = joint_name(name),
+      joints.push_back({.name = prefix + name,
                         .type = JointType::planar,
                         .i = bodies::earth,
                         .j = int(b),

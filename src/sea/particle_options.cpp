@@ -41,7 +41,7 @@ const Section<ParticleOptions>& particle_section() {
           .number("spacing_m", &ParticleOptions::spacing_m, "m", "Distance d between particles at the start.", positive())
           .required()
           .choice("dimensions", &ParticleOptions::dimensions,
-                  {{"2", "the plane of x and z; loads on bodies are those of width_m"}, {"3", "space"}},
+                  {{"2", "the plane of x and z, which bodies stay in; their loads are those of width_m"}, {"3", "space"}},
                   "Dimensions of the scene.")
           .number("width_m", &ParticleOptions::width_m, "m", "Width of sea that a 2-D scene stands for.", positive())
           .only_if("dimensions", {"2"})

@@ -280,6 +280,14 @@ sea.particles.walls="modified"
 sea.tank.sides_y="symmetric" & sea.tank.y_m=[0.0, 3.0] : bodies.buoy.meshes
 sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].position_m=[0.0, 3.0, 0.0] : bodies.buoy.meshes[0].file
 """,
+    "validation/floating_box/floating_box.toml": """
+bodies.box.displacement_m=[0.0, 0.1, 0.05]
+bodies.box.rotation_deg=[5.0, 0.0, 0.0]
+bodies.box.velocity_m_s=[0.0, 0.1, 0.0]
+bodies.box.omega_rad_s=[0.0, 0.0, 0.1]
+joints.turn={type="revolute", bodies=["earth", "box"], point_m=[0.0, 0.0, 0.0], axis=[1.0, 0.0, 0.0], rotation={speed_rpm=1.0}} : joints.turn.rotation
+joints.plane_box={type="planar", bodies=["earth", "box"], point_m=[0.0, 0.0, 0.0], axis=[0.0, 1.0, 0.0]} : joints.plane_box
+""",
     "validation/free_sphere/free_sphere.toml": """
 sea.tank.sides_y="mirror"
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.centre_m=[0.0, 1.0, 0.0] : bodies.sphere.centre_m

@@ -40,11 +40,24 @@ TEST_CASE("frequencies and damping of a body on springs, added mass included", "
   System system = on_springs(Integrator::rk4, 1000.0, 8.0, 30.0);
   const Linearisation l = linearise(system, start(system), 0.0);
   REQUIRE(l.modes.size() == 6);
+  CHECK(l.free == 0);
   const Mode& surge = mode_named(l, "surge of buoy");
   CHECK(std::abs(surge.eigenvalue) == Approx(10.0).epsilon(1e-7));
   CHECK(surge.damping_ratio() == Approx(0.04).epsilon(1e-6));
   CHECK(std::abs(mode_named(l, "heave of buoy").eigenvalue) == Approx(5.0).epsilon(1e-7));
   CHECK(std::abs(mode_named(l, "yaw of buoy").eigenvalue) == Approx(std::sqrt(100.0 / 7)).epsilon(1e-7));
+}
+
+TEST_CASE("freedoms without stiffness are counted once, damped or not", "[bodies][fast]") {
+  const double damping = GENERATE(0.0, 5.0);
+  System system({body("buoy", 10.0, {5, 6, 7}, {0, 0, 0})}, {},
+                {{"spring",
+                  [=](double, std::span<const Motion> m, std::span<Wrench> w) {
+                    w[0].force += -1000.0 * m[0].position.z() * Eigen::Vector3d::UnitZ() - damping * m[0].velocity;
+                  },
+                  {}}},
+                Integrator::rk4);
+  CHECK(linearise(system, start(system), 0.0).free == 5);
 }
 
 TEST_CASE("the limit of the scene holds: 0.95 of it is stable, 1.05 is not", "[bodies][fast]") {

@@ -1,0 +1,48 @@
+"""Bodies in a sea of two dimensions stay in its plane whatever pulls them out of it: what holds them has columns, bits are those of a restart and of ranks.
+Usage: planar_sea_test.py SPINDRIFT [TEST...] SPDX-License-Identifier: Apache-2.0"""
+import unittest
+
+from running import ROOT, Folder, columns, spindrift
+
+SCENE = ROOT / "inputs/validation/floating_box/floating_box.toml"
+SHORT = ["time.end_s=0.4", "sea.initial.settle_s=0.1", "sea.particles.spacing_m=0.05"]
+ACROSS = ["bodies.box.forces=[{point_m=[0.1, 0.2, 0.1], force_N=[0.0, 50.0, 20.0], moment_N_m=[3.0, 0.0, 4.0]}]"]
+
+
+class Planar(Folder):
+    def run_scene(self, name, *more, settings, ranks=0):
+        done = spindrift("run", SCENE, "--out", self.path / name, "--quiet", "--no-report", *more, settings=[*SHORT, *settings], ranks=ranks)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return columns(self.path / name / "history.csv")
+
+    def test_loads_out_of_the_plane_move_nothing_and_are_the_reaction(self):
+        found = self.run_scene("across", settings=ACROSS)
+        for lost in ("y_m", "roll_deg", "yaw_deg"):
+            self.assertLess(abs(found[f"box.{lost}"]).max(), 1e-12, lost)
+        self.assertGreater(abs(found["box.z_m"] - found["box.z_m"][0]).max(), 0.005)
+        self.assertAlmostEqual(abs(found["plane_box.fy_N"][-1]), 50.0, delta=0.5)
+        for part in ("one", "two"):
+            self.assertEqual((self.path / "across/history.csv").read_bytes(), self.again(part), part)
+
+    def again(self, part):
+        if part == "one":
+            self.run_scene(part, "--until", 0.2, settings=ACROSS)
+            self.run_scene(part, "--restart", settings=ACROSS)
+        else:
+            self.run_scene(part, settings=ACROSS, ranks=2)
+        return (self.path / part / "history.csv").read_bytes()
+
+    def test_a_body_that_a_joint_keeps_in_the_plane_needs_no_other(self):
+        rail = "joints.rail={type='translational', bodies=['earth', 'box'], point_m=[0.0, 0.0, 0.0], axis=[0.0, 0.0, 1.0]}"
+        found = self.run_scene("rail", settings=[*ACROSS, rail])
+        self.assertNotIn("plane_box.fy_N", found)
+
+    def test_check_prints_the_modes_of_the_plane_alone(self):
+        said = spindrift("check", SCENE).stdout
+        self.assertIn("of 3 freedoms without stiffness", said)
+        for lost in ("roll of", "yaw of", "sway of"):
+            self.assertNotIn(lost, said)
+
+
+if __name__ == "__main__":
+    unittest.main()
