@@ -90,10 +90,11 @@ using Digests = std::map<std::string, scene::FileDigest>;
 
 std::string identity_of(const std::string& echo, const scene::FileRecord& read, Digests& digests) {
   scene::Identity identity{echo, {}};
-  for (const std::string& file : read.files()) {
-    if (!digests.contains(file)) digests[file] = scene::digest_of(file);
-    identity.files.push_back(digests[file]);
-  }
+  for (const auto* files : {&read.files(), &read.states()})
+    for (const std::string& file : *files) {
+      if (!digests.contains(file)) digests[file] = scene::digest_of(file);
+      identity.files.push_back(digests[file]);
+    }
   return identity.text();
 }
 

@@ -50,8 +50,8 @@ FileRecord::FileRecord() { recording = this; }
 FileRecord::~FileRecord() { recording = nullptr; }
 
 void FileRecord::note(const std::string& path) {
-  if (!recording || path.ends_with(".h5")) return;
-  std::vector<std::string>& files = recording->files_;
+  if (!recording) return;
+  std::vector<std::string>& files = path.ends_with(".h5") ? recording->states_ : recording->files_;
   if (std::ranges::find(files, path) == files.end()) files.push_back(path);
 }
 

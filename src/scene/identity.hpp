@@ -11,7 +11,7 @@
 namespace spindrift::scene {
 
 /// Notes the files that sections name (Section::path) while it lives, those in files of files too. States that a run starts from
-/// (*.h5) have checksums of their own and are left out.
+/// (*.h5) stand apart: a restart of that run has no need of them.
 class FileRecord {
  public:
   FileRecord();
@@ -19,12 +19,13 @@ class FileRecord {
   FileRecord(const FileRecord&) = delete;
   FileRecord& operator=(const FileRecord&) = delete;
   const std::vector<std::string>& files() const { return files_; }  ///< absolute, each once, in order
+  const std::vector<std::string>& states() const { return states_; }
 
   /// By the reader.
   static void note(const std::string& path);
 
  private:
-  std::vector<std::string> files_;
+  std::vector<std::string> files_, states_;
 };
 
 struct FileDigest {

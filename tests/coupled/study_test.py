@@ -103,6 +103,30 @@ measure = "last"
         for one, other in zip(before, surge()):
             self.assertAlmostEqual(other / one, 2.0, delta=0.05)
 
+    def test_a_run_is_repeated_where_the_state_that_it_starts_from_changed(self):
+        scene, other = ROOT / "tests/extremes/buoy.toml", self.path / "other"
+        text = f"""
+[study]
+scene = "{scene}"
+set = ['start.file="start.h5"', "time.end_s=3.0"]
+[axes.step]
+key = "time.step_s"
+values = [0.02]
+[metrics.heave]
+column = "buoy.z_m"
+measure = "last"
+"""
+        found = []
+        for high in (0.1, 0.3):
+            done = subprocess.run([str(PROGRAM), "run", str(scene), "--out", str(other), "--overwrite", "--quiet", "--no-report", "--set", "time.end_s=1.0", "--set",
+                                   f"bodies.buoy.displacement_m=[0.0,0.0,{high}]"], capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            (self.path / "start.h5").write_bytes(max((other / "checkpoints").glob("*.h5")).read_bytes())
+            done = self.study(text)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            found.append([rung["errors"]["heave"]["value"] for rung in self.result()["rungs"]])
+        self.assertNotEqual(*found)
+
     def test_a_dry_run_runs_nothing(self):
         done = self.study(STUDY, "--dry-run")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
