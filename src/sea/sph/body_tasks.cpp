@@ -113,9 +113,10 @@ void BodyTasks<dim, Real>::move(Half half, int step) {
   for (std::size_t s = 0; s < sea.solids.size(); ++s) sea.set_motion(sea.solids[s], motions_[s]);
   const double farthest = path_limit();
   if (plan.solid_path > farthest)
-    sea.plan.failure = NumericalFailure("sea: bodies went " + in_words(plan.solid_path) + " m in one window, the limit is " +
-                                            in_words(farthest) + " m (a column of cells and a half); shorten time.window_s",
-                                        "sea", plan.steps, plan.time, farthest);
+    sea.plan.failure =
+        NumericalFailure("sea: bodies went " + in_words(plan.solid_path - path_) + " m in a window or two, the limit is " +
+                             in_words(farthest - path_) + " m (a column of cells and a half); shorten time.window_s",
+                         "sea", plan.steps, plan.time, farthest - path_);
 }
 
 template <int dim, class Real>
