@@ -254,6 +254,10 @@ void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearis
   if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
     fmt::print(
         "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
+  if (floating.sea() && floating.sea()->memory_size() > 0)
+    fmt::print(
+        "  with the added mass of infinite frequency; the waves that bodies make (radiation memory) damp these and change "
+        "periods\n");
   const coupling::TimeOptions& time = floating.scenario().time;
   const std::string asked =
       floating.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());

@@ -432,6 +432,10 @@ class Checks(unittest.TestCase):
                     for words in ("predicted core-hours", "wall time", "memory of a rank each"):
                         self.assertIn(words, said, scene)
 
+    def test_modes_say_what_of_the_water_they_are_without(self):
+        self.assertIn("radiation memory", checked("../tests/extremes/potential.toml")[1])
+        self.assertNotIn("radiation memory", checked("../tests/extremes/potential.toml", ("sea.potential.radiation=none",))[1])
+
     def test_a_pile_may_end_on_the_bed_whatever_the_round_off_of_its_place(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             scene = pathlib.Path(folder, "pile.toml")
