@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/coupling/timeline.hpp"
 #include "src/scene/section.hpp"
 
@@ -14,7 +17,9 @@ void check_time(const TimeOptions& o, const scene::Report& report) {
   if (!whole_ratio(o.window_s, o.step()))
     report("step_s", fmt::format("must divide the window of {} s into whole steps (nearest: {} s)", o.window_s,
                                  nearest_divisor(o.window_s, o.step())));
-  if (!whole_ratio(o.end_s, o.window_s)) report("end_s", fmt::format("must be a whole number of windows of {} s", o.window_s));
+  if (!whole_ratio(o.end_s, o.window_s))
+    report("end_s", fmt::format("must be a whole number of windows of {} s (nearest: {:.12g} s)", o.window_s,
+                                std::max(1.0, std::round(o.end_s / o.window_s)) * o.window_s));
 }
 
 }  // namespace

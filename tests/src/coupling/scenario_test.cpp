@@ -40,6 +40,7 @@ TEST_CASE("a scene that is right is read without complaint", "[coupling][fast]")
 TEST_CASE("what has no effect or contradicts itself is refused by name", "[coupling][fast]") {
   CHECK_THAT(refusal({"time.step_s=0.03"}), Contains("time.step_s") && Contains("whole steps"));
   CHECK_THAT(refusal({"time.end_s=2.05"}), Contains("time.end_s") && Contains("whole number of windows"));
+  CHECK_THAT(refusal({"time.end_s=2.04"}), Contains("nearest: 2 s"));
   CHECK_THAT(refusal({"waves.model='airy'", "waves.height_m=1.0", "waves.period_s=8.0"}), Contains("waves"));
   CHECK_THAT(refusal({"wind.speed_m_s=11.0"}), Contains("wind"));
   CHECK_THAT(refusal({"start.ramp_s=5.0"}), Contains("start.ramp_s"));
