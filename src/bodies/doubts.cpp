@@ -135,6 +135,72 @@ scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& aro
 
 namespace {
 
+bool is_inside(const Cylinder& c, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d way = c.end - c.start, from = x - c.start;
+  const double along = from.dot(way) / way.squaredNorm(), radius = c.radius(along);
+  return along > 0.0 && along < 1.0 && (from - along * way).squaredNorm() < radius * radius;
+}
+
+/// Share of a cylinder's volume that lies in another, by points that stand for equal parts of each cross-section, on a golden
+/// spiral: right within a per cent.
+double share_inside(const Cylinder& c, const Cylinder& other) {
+  constexpr int slices = 40, points = 200;
+  const double golden = pi * (3.0 - std::sqrt(5.0));
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), c.axis());
+  double all = 0.0, inside = 0.0;
+  for (int slice = 0; slice < slices; ++slice) {
+    const double along = (slice + 0.5) / slices, radius = c.radius(along);
+    for (int n = 0; n < points; ++n) {
+      const double off = radius * std::sqrt((n + 0.5) / points);
+      const Eigen::Vector3d aside(off * std::cos(golden * n), off * std::sin(golden * n), 0.0);
+      all += radius * radius;
+      if (is_inside(other, c.at(along) + turn * aside)) inside += radius * radius;
+    }
+  }
+  return inside / all;
+}
+
+bool may_meet(const Cylinder& one, const Cylinder& two) {
+  const auto reach = [](const Cylinder& c) { return 0.5 * c.length() + std::max(c.start_radius, c.end_radius); };
+  return (one.at(0.5) - two.at(0.5)).norm() < reach(one) + reach(two);
+}
+
+}  // namespace
+
+scene::Doubts overlap_doubts(const NamedBodies& bodies, std::string_view but_for) {
+  constexpr double most = 0.1;  // braces end on the axes of columns, not on their sides
+  scene::Doubts doubts;
+  for (const auto& [name, body] : bodies) {
+    if (name == but_for) continue;
+    double largest = 0.0;
+    int pairs = 0;
+    std::string what;
+    for (std::size_t n = 0; n < body.cylinders.size(); ++n)
+      for (std::size_t m = 0; m < n; ++m) {
+        const Cylinder one = make_cylinder(body.cylinders[m], body), two = make_cylinder(body.cylinders[n], body);
+        if (!may_meet(one, two)) continue;
+        const bool first = one.volume() < two.volume();
+        const Cylinder &less = first ? one : two, &more = first ? two : one;
+        const double share = share_inside(less, more), common = share * less.volume();
+        if (share <= most) continue;
+        ++pairs;
+        if (common <= largest) continue;
+        largest = common;
+        what = fmt::format("cylinders {} and {} lie in each other: {:.3g} m3, {:.3g} % of {}, displace and add mass twice",
+                           body.cylinders[m].name, body.cylinders[n].name, common, 100.0 * share,
+                           body.cylinders[first ? m : n].name);
+      }
+    if (pairs > 1) what += fmt::format(" (so do {} more pairs)", pairs - 1);
+    if (pairs > 0)
+      doubts.push_back({"bodies." + name + ".cylinders", what,
+                        fmt::format("up to {:.0f} % of the smaller, as at joints", 100.0 * most),
+                        "let one end where the other begins"});
+  }
+  return doubts;
+}
+
+namespace {
+
 /// Tubes of towers and monopiles are 50 to 300 times as wide as their walls are thick, thick pipes 10 times, rods twice.
 void doubt_walls(scene::Doubts& doubts, const std::string& at, const BeamOptions& beam) {
   constexpr double least = 6.0, most = 1000.0, solid = 2.0;

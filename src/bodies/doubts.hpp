@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "src/bodies/beam_options.hpp"
 #include "src/bodies/options.hpp"
@@ -18,6 +19,9 @@ struct BodySurroundings {
 };
 
 scene::Doubts body_doubts(const NamedBodies& bodies, const BodySurroundings& around = {});
+
+/// Cylinders of a body that lie in each other, in a sea that sums their loads; but for the body that another method carries.
+scene::Doubts overlap_doubts(const NamedBodies& bodies, std::string_view but_for = {});
 
 scene::Doubts beam_doubts(const NamedBeams& beams);
 

@@ -656,6 +656,9 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 
 }  // namespace
 
+  if (s.has_sea() && !s.has_particles())
+    append(all, bodies::overlap_doubts(
+                    s.bodies, s.sea.potential && !s.sea.potential->hydrostatics_file.empty() ? s.sea.potential->body : ""));
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   if (!start.state.motions.empty()) doubt_statics(all, floating, start);  // first: rotors of what capsizes are doubted too

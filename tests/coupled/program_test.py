@@ -466,6 +466,47 @@ model = "morison"
                 self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("below the sea bed", spindrift("check", scene, settings=["environment.water_depth_m=19.99"]).stderr)
 
+    BUOY = """
+[time]
+end_s = 10.0
+window_s = 0.1
+[environment]
+water_depth_m = 50.0
+[bodies.buoy]
+mass_kg = 4.83e5
+inertia_kg_m2 = [1.6e7, 1.6e7, 6.0e6]
+centre_m = [0.0, 0.0, -4.0]
+[[bodies.buoy.cylinders]]
+name = "lower"
+start_m = [0.0, 0.0, -10.0]
+end_m = [0.0, 0.0, -4.0]
+diameter_m = 8.0
+[[bodies.buoy.cylinders]]
+name = "upper"
+start_m = [0.0, 0.0, -4.0]
+end_m = [0.0, 0.0, 6.0]
+diameter_m = 7.0
+[sea]
+model = "morison"
+"""
+
+    def buoy(self, *settings, said=0):
+        with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
+            scene = pathlib.Path(folder, "buoy.toml")
+            scene.write_text(self.BUOY)
+            done = spindrift("check", scene, settings=list(settings))
+        self.assertEqual(done.returncode, said, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_cylinders_of_a_body_that_lie_in_each_other_are_doubted(self):
+        self.assertNotIn("lie in each other", self.buoy())
+        said = self.buoy("bodies.buoy.cylinders[1].start_m=[0.0,0.0,-9.0]")   # 5 m of its length: 192 m3 of 302 m3
+        common = re.search(r"bodies.buoy.cylinders: cylinders lower and upper lie in each other: (\d+) m3, ([\d.]+) % of lower", said)
+        self.assertAlmostEqual(float(common[1]), 192.4, delta=3.0)
+        self.assertAlmostEqual(float(common[2]), 63.8, delta=1.0)
+        brace = "bodies.buoy.cylinders=[{name='a',start_m=[0,0,-10],end_m=[0,0,6],diameter_m=8},{name='b',start_m=[0,0,-5],end_m=[60,0,-5],diameter_m=1}]"
+        self.assertNotIn("lie in each other", self.buoy(brace))   # 4 of its 60 m
+
     def test_two_blades_pass_twice_a_turn(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
