@@ -77,6 +77,23 @@ void doubt_meshes(scene::Doubts& doubts, const Scenario& s) {
     }
 }
 
+/// A body that the water does not touch at the start, and that nothing else carries: it falls, and no engineering sea has the
+/// slam.
+void doubt_above_water(scene::Doubts& doubts, const Scenario& s, const std::string& name, const bodies::Reach& reach) {
+  if (s.has_particles() || reach.low <= 0.0 || s.environment.gravity_m_s2 == 0.0) return;
+  const auto ties = [&name = name](const auto& tie) {
+    return std::ranges::find(tie.options.bodies, name) != tie.options.bodies.end();
+  };
+  const bool moored = std::ranges::any_of(
+      s.moorings, [&](const auto& line) { return line.options.body == name || line.options.anchor_body == name; });
+  const bool by_matrices = std::ranges::any_of(s.sea.matrices, [&](const auto& m) { return m.body == name; }) ||
+                           (s.sea.potential && s.sea.potential->body == name);
+  if (moored || by_matrices || std::ranges::any_of(s.joints, ties) || std::ranges::any_of(s.beams, ties)) return;
+  doubts.push_back({"bodies." + name, fmt::format("is wholly above the water at the start, from z = {:.4g} m up", reach.low),
+                    "in the water, or held by a joint, beam or line",
+                    "look at the heights of its shapes (still water is z = 0) and at displacement_m"});
+}
+
 /// Draft of the deepest body that the water carries; doubts about bodies below the bed and about weights that the water cannot
 /// carry at all, or that hardly press it aside.
 double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std::span<const Motion> motions) {
@@ -103,6 +120,7 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std
     if (constexpr double most = 200.0; r.low < -most && r.low >= -s.environment.water_depth_m)
       doubts.push_back({"bodies." + name, fmt::format("a draft of {:.4g} m", -r.low), fmt::format("up to {:g} m, of spars", most),
                         "look at the unit of its shapes: m"});
+    doubt_above_water(doubts, s, name, r);
     if (r.low < 0.0) draft = std::max(draft, -r.low);
     any = any || r.low < 0.0;
     displaced += volume(body);
@@ -638,6 +656,9 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   append(all, line_doubts(s.moorings, around));
   append(all, junction_doubts(s.junctions, around));
   doubt_meshes(all, s);
+  if (s.has_sea() && !s.has_particles())
+    append(all, bodies::overlap_doubts(
+                    s.bodies, s.sea.potential && !s.sea.potential->hydrostatics_file.empty() ? s.sea.potential->body : ""));
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
@@ -656,9 +677,6 @@ std::vector<Motion> described_starts(const FloatingSystem& floating) {
 
 }  // namespace
 
-  if (s.has_sea() && !s.has_particles())
-    append(all, bodies::overlap_doubts(
-                    s.bodies, s.sea.potential && !s.sea.potential->hydrostatics_file.empty() ? s.sea.potential->body : ""));
 scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stability& stability) {
   scene::Doubts all = plain_doubts(floating, start.state.motions);
   if (!start.state.motions.empty()) doubt_statics(all, floating, start);  // first: rotors of what capsizes are doubted too

@@ -507,6 +507,14 @@ model = "morison"
         brace = "bodies.buoy.cylinders=[{name='a',start_m=[0,0,-10],end_m=[0,0,6],diameter_m=8},{name='b',start_m=[0,0,-5],end_m=[60,0,-5],diameter_m=1}]"
         self.assertNotIn("lie in each other", self.buoy(brace))   # 4 of its 60 m
 
+    def test_a_body_that_starts_above_the_water_is_doubted_unless_something_holds_it(self):
+        above, words = "bodies.buoy.displacement_m=[0.0,0.0,12.0]", "bodies.buoy: is wholly above the water at the start, from z = 2 m up"
+        self.assertNotIn(words, self.buoy())
+        self.assertIn(words, self.buoy(above))
+        held = "joints.pole={type='fixed',bodies=['earth','buoy'],point_m=[0.0,0.0,6.0]}"
+        self.assertNotIn("above the water", self.buoy("bodies.buoy.cylinders[0].start_m=[0,0,2]", "bodies.buoy.cylinders[0].end_m=[0,0,4]",
+                                                      "bodies.buoy.cylinders[1].start_m=[0,0,4]", held))
+
     def test_two_blades_pass_twice_a_turn(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
