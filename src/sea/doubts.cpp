@@ -52,14 +52,19 @@ scene::Doubts wave_doubts(const WavesOptions& w, const SeaEnvironment& e) {
   if (w.period_s > 30.0)
     doubts.push_back({"waves.period_s", fmt::format("{:.4g} s", w.period_s), "up to 30 s: longer ones are tides and surges",
                       "look at its unit: seconds, not a frequency"});
+  const double ursell = w.height_m * length * length / std::pow(e.water_depth, 3);
   if (model.second_order || w.second_order) {
-    // Ursell number of second order's range: beyond 26 its second harmonic is no longer small (Hedges 1995).
-    const double ursell = w.height_m * length * length / std::pow(e.water_depth, 3);
+    // Where second order ends and cnoidal waves begin (Hedges 1995).
     if (ursell > 40.0)
       doubts.push_back({w.second_order ? "waves.second_order" : "waves.model",
                         fmt::format("{} with an Ursell number of {:.3g}", w.model, ursell), "below 40 (Hedges 1995)",
                         "the wave is too long for this depth; look at environment.water_depth_m"});
-  }
+  } else if (model.regular && !model.nonlinear && ursell > 26.0)
+    // At 8 pi^2 / 3 the second harmonic of Stokes, 3 Ur / (32 pi^2) of the first in shallow water, is a quarter of it: its
+    // trough has a crest of its own.
+    doubts.push_back({"waves.model", fmt::format("{} with an Ursell number, H L^2 / d^3, of {:.3g}", w.model, ursell),
+                      "below 26: beyond, troughs are long and crests high and short",
+                      "take \"stream_function\" where the sea has no particles, or look at environment.water_depth_m"});
   return doubts;
 }
 

@@ -27,7 +27,7 @@ extern const WaveModel stokes2{
           if (ratio > most)
             problems.push_back({"waves.model", fmt::format("stokes2 fails for this wave: its second harmonic is {:.3g} of the "
                                                            "first (limit {:.3g}, a second crest in the trough); use a lower or "
-                                                           "shorter wave",
+                                                           "shorter wave, or without particles \"stream_function\"",
                                                            ratio, most)});
         }};
 

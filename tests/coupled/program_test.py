@@ -515,6 +515,13 @@ model = "morison"
         self.assertNotIn("above the water", self.buoy("bodies.buoy.cylinders[0].start_m=[0,0,2]", "bodies.buoy.cylinders[0].end_m=[0,0,4]",
                                                       "bodies.buoy.cylinders[1].start_m=[0,0,4]", held))
 
+    def test_linear_waves_that_are_too_long_for_the_depth_are_doubted(self):
+        words = "waves.model: airy with an Ursell number, H L^2 / d^3, of"
+        wave = ["waves.model=airy", "waves.height_m=1.5", "environment.water_depth_m=12.0"]
+        self.assertNotIn(words, self.buoy(*wave, "waves.period_s=8.0"))
+        self.assertIn(words, self.buoy(*wave, "waves.period_s=18.0"))
+        self.assertNotIn("Ursell", self.buoy(*wave[1:], "waves.period_s=18.0", "waves.model=stream_function"))
+
     def test_two_blades_pass_twice_a_turn(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
