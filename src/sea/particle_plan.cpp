@@ -258,6 +258,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     const Eigen::Vector3d& x = o.probes[n].point_m;
     if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1])))
       wrong(key + ".point_m", "is outside the tank");
+    else if (const double bed = sph::TankPlan{.depth = depth, .bed = t.bed_m}.bed_at(x[0]); x[2] < bed - 1e-9 * depth)
+      wrong(key + ".point_m", fmt::format("is below the bed, which is at {:.6g} m there", bed));
   }
   const auto shaped = [&](const std::string& key, const std::string& body) {
     const auto named = std::find_if(bodies.begin(), bodies.end(), [&](const ParticleBody& b) { return b.name == body; });
@@ -294,6 +296,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     const bool outside = sensor.low_m[0] < t.x_m[0] || sensor.high_m[0] > t.x_m[1] || sensor.low_m[2] < -depth ||
                          (!planar && (sensor.low_m[1] < t.y_m[0] || sensor.high_m[1] > t.y_m[1]));
     if (outside) wrong(key, "is outside the tank");
+    if (sensor.low_m[2] >= t.top_m)
+      wrong(key, fmt::format("is above the tank's walls, which end at {:.6g} m (sea.tank.top_m)", t.top_m));
     if (!outside && t.symmetric() && sensor.high_m[1] == t.y_m[0])
       wrong(key, "is on the plane of symmetry (sea.tank.sides_y), where there is no wall");
   }

@@ -522,6 +522,15 @@ model = "morison"
         self.assertIn(words, self.buoy(*wave, "waves.period_s=18.0"))
         self.assertNotIn("Ursell", self.buoy(*wave[1:], "waves.period_s=18.0", "waves.model=stream_function"))
 
+    def test_probes_below_the_bed_and_sensors_above_the_walls_are_refused(self):
+        tank = ROOT / "inputs/validation/wave_tank/small_tank.toml"
+        for setting, words in (("sea.probes=[{name='p',point_m=[1.0,0.0,-50.0]}]", "sea.probes[0].point_m = [1.0, 0.0, -50.0]: is below the bed"),
+                               ("sea.sensors=[{name='p',low_m=[0.0,0.0,0.3],high_m=[0.0,0.0,0.4]}]", "sea.sensors[0]: is above the tank's walls, which end at 0.2 m")):
+            with self.subTest(setting):
+                done = spindrift("check", tank, settings=[setting])
+                self.assertEqual(done.returncode, 2, done.stdout)
+                self.assertIn(words, done.stderr)
+
     def test_two_blades_pass_twice_a_turn(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
