@@ -237,17 +237,30 @@ void print_all_blade_modes(const FloatingSystem& floating) {
   for (std::size_t n = 0; n < each.size(); ++n) print_blade_modes(each[n], floating.rotors()[n]);
 }
 
+/// Their names; those of equal name get numbers, "surge of float (1)". Modes that do not move are not shown, and not counted.
+std::vector<std::string> told_apart(const std::vector<bodies::Mode>& modes) {
+  std::map<std::string, int> all, so_far;
+  for (const bodies::Mode& mode : modes)
+    if (mode.eigenvalue != 0.0) ++all[mode.name];
+  std::vector<std::string> names;
+  for (const bodies::Mode& mode : modes)
+    names.push_back(mode.eigenvalue != 0.0 && all[mode.name] > 1 ? fmt::format("{} ({})", mode.name, ++so_far[mode.name])
+                                                                 : mode.name);
+  return names;
+}
+
 void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearisation) {
   fmt::print("\nModes about the start{}\n",
              floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
-  for (const bodies::Mode& mode : linearisation.modes)
-    if (mode.eigenvalue == 0.0)
+  const std::vector<std::string> names = told_apart(linearisation.modes);
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (const bodies::Mode& mode = linearisation.modes[n]; mode.eigenvalue == 0.0)
       continue;
     else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
-      fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", mode.name, mode.period_s(),
+      fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", names[n], mode.period_s(),
                  1.0 / mode.period_s(), 1e-2 * std::round(1e4 * mode.damping_ratio()) + 0.0);  // + 0: no minus before zero
     else
-      fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", mode.name, mode.eigenvalue.real(),
+      fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", names[n], mode.eigenvalue.real(),
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
   if (const Eigen::Index all = linearisation.matrix.rows() / 2; linearisation.free > 0)
     fmt::print("  {} of {} freedoms without stiffness\n", linearisation.free, all);

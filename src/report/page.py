@@ -359,6 +359,11 @@ def modes(run):
         return ""
     swing = [m for m in found if m["frequency_Hz"] > 0.0]
     rows = [[m["name"], number(1.0 / m["frequency_Hz"]), number(m["frequency_Hz"]), f"{100.0 * m['damping']:.2f} %"] for m in swing]
+    names, so_far = [m["name"] for m in found], {}
+    for n, name in enumerate(names):   # those of equal name get numbers, as `check` has them
+        so_far[name] = so_far.get(name, 0) + 1
+        if names.count(name) > 1:
+            found[n] = {**found[n], "name": f"{name} ({so_far[name]})"}
     rows += [[m["name"], "–", "–", f"rate {m['damping']:+.3g} 1/s"] for m in found if m["frequency_Hz"] <= 0.0]
     out = parts.table(["Mode about the start", "Period [s]", "Frequency [Hz]", "Damping, of critical"], rows)
     at = marks(run)

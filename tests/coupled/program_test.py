@@ -522,6 +522,12 @@ model = "morison"
         self.assertIn(words, self.buoy(*wave, "waves.period_s=18.0"))
         self.assertNotIn("Ursell", self.buoy(*wave[1:], "waves.period_s=18.0", "waves.model=stream_function"))
 
+    def test_modes_of_equal_name_are_numbered(self):
+        self.assertRegex(self.buoy(), r"\n  heave of buoy  +period")
+        rows = ["[0,0,0,0,0,0]", "[0,0,0,0,0,0]", "[0,0,1e7,0,0,0]", *3 * ["[0,0,0,0,0,0]"]]
+        said = self.buoy("sea.matrices=[{body='buoy',point_m=[0,0,-4],damping=[" + ",".join(rows) + "]}]")   # beyond critical
+        self.assertRegex(said, r"\n  heave of buoy \(1\) +rate -[^\n]*\n(.*\n)*  heave of buoy \(2\) +rate -")
+
     def test_probes_below_the_bed_and_sensors_above_the_walls_are_refused(self):
         tank = ROOT / "inputs/validation/wave_tank/small_tank.toml"
         for setting, words in (("sea.probes=[{name='p',point_m=[1.0,0.0,-50.0]}]", "sea.probes[0].point_m = [1.0, 0.0, -50.0]: is below the bed"),

@@ -142,6 +142,9 @@ source = "Bak et al. 2013"
         modes = [{"name": "surge of platform", "frequency_Hz": 0.123, "damping": 0.05}, {"name": "pitch of platform", "frequency_Hz": 0.0443, "damping": 0.06},
                  {"name": "yaw of rotor", "frequency_Hz": 0.0, "damping": -0.2}]
         trace = {"traceEvents": [{"ph": "X", "name": ("sea/force/1", "aero/step/2")[n % 2], "ts": 100 * n, "dur": 90, "pid": 0, "tid": n % 2} for n in range(50)]}
+        _, parsed = self.page(modes=modes + [{"name": "pitch of platform", "frequency_Hz": 0.0, "damping": -0.5}], trace=trace)
+        for words in ("pitch of platform (1)22.57", "pitch of platform (2)––rate -0.5 1/s"):
+            self.assertIn(words, parsed.text.replace("\n", ""))
         _, parsed = self.page(modes=modes, trace=trace)
         self.assertIn("modes", parsed.sections)
         text = parsed.text.replace("\n", "")
