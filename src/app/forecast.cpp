@@ -2,6 +2,7 @@
 #include "src/app/forecast.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -228,14 +229,28 @@ std::vector<std::string> columns_of_air_alone() {
   return found;
 }
 
+std::string no_column(const std::string& name, const std::vector<std::string>& known) {
+  const std::string text = "is no column of this scene; ";
+  if (const std::string near = scene::nearest(name, known); !near.empty()) return text + "did you mean \"" + near + "\"?";
+  constexpr std::size_t most = 3;
+  const auto first = [](const std::string& column) { return column.substr(0, column.find('.')); };
+  const auto rest = [](const std::string& column) { return column.substr(column.find('.') + 1); };
+  std::vector<std::string> alike, beginnings;  // of another body or rotor
+  for (const std::string& column : known) {
+    if (column.find('.') != std::string::npos && !scene::nearest(rest(name), {rest(column)}).empty()) alike.push_back(column);
+    const std::string start = column.find('.') == std::string::npos ? column : first(column) + ".";
+    if (std::ranges::find(beginnings, start) == beginnings.end()) beginnings.push_back(start);
+  }
+  if (!alike.empty() && alike.size() <= most) return text + fmt::format("did you mean {}?", fmt::join(alike, " or "));
+  return text + fmt::format("its columns begin with {}", fmt::join(beginnings, ", "));
+}
+
 void require_expected_columns(scene::Document& document, const coupling::OutputOptions& output,
                               const std::vector<std::string>& known) {
   for (std::size_t n = 0; n < output.expected.size(); ++n) {
     const std::string& column = output.expected[n].column;
     if (std::ranges::find(known, column) != known.end()) continue;
-    const std::string near = scene::nearest(column, known);
-    document.problem(fmt::format("output.expected[{}].column", n),
-                     "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    document.problem(fmt::format("output.expected[{}].column", n), no_column(column, known));
   }
   document.finish();
 }

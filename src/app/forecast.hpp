@@ -50,6 +50,9 @@ struct Forecast {
 /// Those of bodies with all that acts on them; of air alone. Some scenes have fewer columns of the air.
 std::vector<std::string> columns_of(coupling::FloatingSystem& floating);
 std::vector<std::string> columns_of_air_alone();
+/// Of a name that is none of the known columns, for an error: the column or columns that may be meant, else what columns begin
+/// with.
+std::string no_column(const std::string& name, const std::vector<std::string>& known);
 /// Throws SceneError where [[output.expected]] names a column that the scene does not have.
 void require_expected_columns(scene::Document& document, const coupling::OutputOptions& output,
                               const std::vector<std::string>& known);

@@ -44,11 +44,8 @@ using coupling::Scenario;
 
 void require_columns(const std::vector<std::string>& known, const std::vector<std::string>& columns) {
   for (const std::string& column : columns)
-    if (std::find(known.begin(), known.end(), column) == known.end()) {
-      const std::string near = scene::nearest(column, known);
-      throw scene::SceneError({{"--columns", 0, "", column,
-                                "is no column of this scene" + (near.empty() ? "" : "; did you mean \"" + near + "\"?")}});
-    }
+    if (std::ranges::find(known, column) == known.end())
+      throw scene::SceneError({{"--columns", 0, "", column, no_column(column, known)}});
 }
 
 /// The run of a scene, in pieces.

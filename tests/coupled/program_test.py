@@ -528,6 +528,14 @@ model = "morison"
         said = self.buoy("sea.matrices=[{body='buoy',point_m=[0,0,-4],damping=[" + ",".join(rows) + "]}]")   # beyond critical
         self.assertRegex(said, r"\n  heave of buoy \(1\) +rate -[^\n]*\n(.*\n)*  heave of buoy \(2\) +rate -")
 
+    def test_an_unknown_column_is_told_with_those_that_may_be_meant(self):
+        for asked, words in (("buoy.pich_deg", 'did you mean "buoy.pitch_deg"?'), ("spar.heave_m", "its columns begin with time_s, buoy."),
+                             ("sea_float.pitch_deg", "did you mean buoy.pitch_deg?")):
+            with self.subTest(asked), tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
+                scene = pathlib.Path(folder, "buoy.toml")
+                scene.write_text(self.BUOY)
+                self.assertIn(words, spindrift("check", scene, "--columns", asked).stderr)
+
     def test_probes_below_the_bed_and_sensors_above_the_walls_are_refused(self):
         tank = ROOT / "inputs/validation/wave_tank/small_tank.toml"
         for setting, words in (("sea.probes=[{name='p',point_m=[1.0,0.0,-50.0]}]", "sea.probes[0].point_m = [1.0, 0.0, -50.0]: is below the bed"),
