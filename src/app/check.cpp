@@ -410,13 +410,17 @@ PartCost print_air(const FloatingSystem& floating, const coupling::Start& start,
   return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
 
+/// The turbulence model, or what the flow is without one.
+std::string friction_of(const aero::FlowOptions& flow) {
+  return flow.viscous == "none" ? "inviscid" : flow.turbulence == "none" ? "laminar" : flow.turbulence;
+}
+
 void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, const scene::Doubts& angles, bool calibrate,
                           int ranks, const BaseCost& base) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
   fmt::print("{}: valid\n\nWhat will be modelled\n", source);
-  fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, setup.flow.viscous == "none" ? "inviscid" : setup.flow.turbulence,
-             setup.flow.flux);
+  fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, friction_of(setup.flow), setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
              size.sectors == 1 ? ", periodic" : "s", size.stations);
@@ -593,8 +597,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
         grid.boundaries, [&](const aero::Boundary& b) { return has_condition(*scenario.aero.flow, b.patch); });
     fmt::print("{}: {}\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene,
                complete ? "valid" : "not yet valid, patches lack a condition", "air", scenario.aero.flow->time,
-               scenario.aero.flow->viscous == "none" ? "inviscid" : scenario.aero.flow->turbulence,
-               aero::describe_flow_grid(*scenario.aero.flow));
+               friction_of(*scenario.aero.flow), aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
     if (scenario.has_actuator()) print_rotor_at_start(scenario);

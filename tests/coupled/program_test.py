@@ -545,6 +545,9 @@ model = "morison"
                 self.assertEqual(done.returncode, 2, done.stdout)
                 self.assertIn(words, done.stderr)
 
+    def test_air_that_is_viscous_without_a_turbulence_model_is_called_laminar(self):
+        self.assertRegex(checked("validation/cylinder_re100/cylinder.toml")[1], r"\n  air +bdf2, laminar, grid")
+
     def test_two_blades_pass_twice_a_turn(self):
         with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
             shutil.copytree(ROOT / "inputs/turbines", folder, dirs_exist_ok=True)
