@@ -334,11 +334,13 @@ def marks(run):
         if column not in run.columns:
             continue
         once = float(np.nanmean(run.column(column))) / 60.0
-        alike = "1P" in found and abs(once - found["1P"]) < 0.01 * found["1P"]   # turbines side by side turn alike: marked once
+        blades = run.blades(dict(run.rotors()).get(column.rpartition(".")[0]))
+        # Turbines side by side turn alike: marked once.
+        alike = "1P" in found and abs(once - found["1P"]) < 0.01 * found["1P"] and blades == run.blades()
         if once > 1e-6 and not alike:
             of = text if "1P" in found else ""
             found[f"1P{of}"] = once
-            found[f"{run.blades()}P{of}"] = run.blades() * once
+            found[f"{blades}P{of}"] = blades * once
     return found
 
 
@@ -357,13 +359,13 @@ def modes(run):
     found = [m for m in run.summary.get("modes") or [] if isinstance(m, dict) and isinstance(m.get("frequency_Hz"), (int, float))]
     if not found:
         return ""
-    swing = [m for m in found if m["frequency_Hz"] > 0.0]
-    rows = [[m["name"], number(1.0 / m["frequency_Hz"]), number(m["frequency_Hz"]), f"{100.0 * m['damping']:.2f} %"] for m in swing]
     names, so_far = [m["name"] for m in found], {}
     for n, name in enumerate(names):   # those of equal name get numbers, as `check` has them
         so_far[name] = so_far.get(name, 0) + 1
         if names.count(name) > 1:
             found[n] = {**found[n], "name": f"{name} ({so_far[name]})"}
+    swing = [m for m in found if m["frequency_Hz"] > 0.0]
+    rows = [[m["name"], number(1.0 / m["frequency_Hz"]), number(m["frequency_Hz"]), f"{100.0 * m['damping']:.2f} %"] for m in swing]
     rows += [[m["name"], "–", "–", f"rate {m['damping']:+.3g} 1/s"] for m in found if m["frequency_Hz"] <= 0.0]
     out = parts.table(["Mode about the start", "Period [s]", "Frequency [Hz]", "Damping, of critical"], rows)
     at = marks(run)

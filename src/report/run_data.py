@@ -114,8 +114,9 @@ class RunData:
         except (AttributeError, OSError, KeyError, tomllib.TOMLDecodeError):
             return {}, path
 
-    def blades(self):
-        found = self.turbine()[0].get("blades", 3)
+    def blades(self, rotor=None):
+        """Of a rotor's section, without one of the first."""
+        found = self.turbine(rotor)[0].get("blades", 3)
         return found if isinstance(found, int) else 3
 
     def operation(self, rotor=None):

@@ -757,6 +757,11 @@ class PartsTest(unittest.TestCase):
         names = ["turbine.x_m", "rotor.thrust_N", "rotor.asked_pitch_deg", *(f"rotor.blade_{b}.pitch_deg" for b in (1, 2, 3))]
         self.assertEqual(quantities.bodies_of(names), ["turbine"])
         control = next(g for g in quantities.groups(names) if g.title == "rotor: control")
+            with (folder / "run" / "scene.toml").open("a") as scene:   # the last of it is [rotors.b]
+                scene.write("turbine = '../two.toml'\n")
+            (folder / "two.toml").write_text("[turbine]\nblades = 2\n")
+            two = page.marks(RunData(folder / "run"))
+            self.assertEqual(two, {"1P": 8.0 / 60.0, "3P": 0.4, "1P of b": 16.0 / 60.0, "2P of b": 2 * 16.0 / 60.0})
         self.assertEqual([legend for legend, _ in control.panels[0][1]], ["blade 1", "blade 2", "blade 3", "asked"])
 
     def test_a_spectrum_takes_every_segment(self):
