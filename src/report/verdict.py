@@ -534,6 +534,12 @@ def _marched(run):
     return Check("good", "Settled", f"loads changed by less than {100 * STILL:g} % over the last {back} pseudo-steps")
 
 
+def _is_towed(run):
+    """A joint to the earth gives the bodies a motion, which need not come to rest."""
+    joints = run.scene.get("joints") or {}
+    return any("earth" in (j.get("bodies") or []) and (j.get("translation") or j.get("rotation")) for j in joints.values() if isinstance(j, dict))
+
+
 def _settled(run):
     """Do the means stand for more than their stretch? Halves of the range compared, for all figures that the run answers with."""
     if len(run.time) < 20 or is_steady(run) or kind(run) in ("tank", "run"):
@@ -563,7 +569,7 @@ def _settled(run):
             # A swinging load has halves whose means differ by chance: a fifth of its swing is none.
             if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name)):
                 moving.append(f"{text} by {words.number(100.0 * change / max(size, 1e-300), 2)} %")
-    for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
+    for text, name, least in () if _is_towed(run) else (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
         if name in run.columns:
             values = run.column(name)
             change = between(values)

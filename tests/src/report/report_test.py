@@ -146,6 +146,7 @@ source = "Bak et al. 2013"
         for words in ("pitch of platform (1)22.57", "pitch of platform (2)––rate -0.5 1/s"):
             self.assertIn(words, parsed.text.replace("\n", ""))
         _, parsed = self.page(modes=modes, trace=trace)
+        self.assertNotIn("(1)", parsed.text)
         self.assertIn("modes", parsed.sections)
         text = parsed.text.replace("\n", "")
         self.assertIn("surge of platform8.1300.12305.00 %", text)
@@ -428,6 +429,15 @@ class PartsTest(unittest.TestCase):
             (level, text), span = means(15.0)
             self.assertEqual((level, text), ("warn", "over 1.50 waves; over the last whole one: heave −0.500 for −0.712 m"))
             self.assertEqual(means(5.0)[0], ("warn", "over 0.50 of a wave, which say little: output.means_over_s = 10.00 is one wave"))
+
+    def test_the_way_of_a_towed_body_need_not_settle(self):
+        t = 0.1 * np.arange(400)
+        for joint, level in (("", "warn"), ("[joints.tow]\nbodies = ['earth', 'float']\n[joints.tow.translation]\nspeed_m_s = 1.0\n", "good"),
+                             ("[joints.yaw]\nbodies = ['float', 'nacelle']\n[joints.yaw.rotation]\nspeed_rad_s = 1.0\n", "warn")):
+            with self.subTest(joint), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "float.x_m": t, "float.z_m": 0 * t}, log="",
+                                    scene="[sea]\nmodel = 'morison'\n[bodies.float]\nmass_kg = 1.0\n" + joint)
+                self.assertEqual({c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"], level)
 
     def test_a_march_whose_loads_still_change_has_not_settled(self):
         n = np.arange(1.0, 101.0)
@@ -747,6 +757,11 @@ class PartsTest(unittest.TestCase):
             self.assertEqual([line for line, _ in dict(found["float: forces by source"].panels)["fx"]], ["rotor.a", "rotor.b", "sea"])
             self.assertIn("rotor.b: loads and speed", found)
             self.assertEqual(page.marks(run), {"1P": 8.0 / 60.0, "3P": 0.4, "1P of b": 16.0 / 60.0, "3P of b": 0.8})
+            with (folder / "run" / "scene.toml").open("a") as scene:   # the last of it is [rotors.b]
+                scene.write("turbine = '../two.toml'\n")
+            (folder / "two.toml").write_text("[turbine]\nblades = 2\n")
+            two = page.marks(RunData(folder / "run"))
+            self.assertEqual(two, {"1P": 8.0 / 60.0, "3P": 0.4, "1P of b": 16.0 / 60.0, "2P of b": 2 * 16.0 / 60.0})
             power = verdict._power(run)
             self.assertEqual(power.level, "warn")
             self.assertTrue(power.text.startswith("rotor b: mean 8.00 MW"), power.text)
@@ -757,11 +772,6 @@ class PartsTest(unittest.TestCase):
         names = ["turbine.x_m", "rotor.thrust_N", "rotor.asked_pitch_deg", *(f"rotor.blade_{b}.pitch_deg" for b in (1, 2, 3))]
         self.assertEqual(quantities.bodies_of(names), ["turbine"])
         control = next(g for g in quantities.groups(names) if g.title == "rotor: control")
-            with (folder / "run" / "scene.toml").open("a") as scene:   # the last of it is [rotors.b]
-                scene.write("turbine = '../two.toml'\n")
-            (folder / "two.toml").write_text("[turbine]\nblades = 2\n")
-            two = page.marks(RunData(folder / "run"))
-            self.assertEqual(two, {"1P": 8.0 / 60.0, "3P": 0.4, "1P of b": 16.0 / 60.0, "2P of b": 2 * 16.0 / 60.0})
         self.assertEqual([legend for legend, _ in control.panels[0][1]], ["blade 1", "blade 2", "blade 3", "asked"])
 
     def test_a_spectrum_takes_every_segment(self):
