@@ -12,12 +12,10 @@
 
 namespace spindrift::gas {
 
-/// What to add to a cell's value on its face ahead, of the differences behind and ahead of the cell. Differences whose squares
-/// are below `smooth` (the unit of the variable squared) count as smooth and are not limited, so that round-off and gentle
-/// extrema do not lose the order.
+/// What to add to a cell's value on its face ahead, of the differences behind and ahead of the cell.
 template <class L>
-concept Limiter = requires(const L limiter, double difference, double smooth) {
-  { limiter(difference, difference, smooth) } -> std::same_as<double>;
+concept Limiter = requires(const L limiter, double difference) {
+  { limiter(difference, difference) } -> std::same_as<double>;
   { L::name } -> std::convertible_to<std::string_view>;
 };
 
@@ -38,21 +36,24 @@ SPINDRIFT_INLINE Weights<Real> weights_by_size(const Real& behind, const Real& c
 struct Unlimited {
   static constexpr std::string_view name = "none";
   template <class Real>
-  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead, double) const {
+  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead) const {
     return (1.0 / 6.0) * behind + (1.0 / 3.0) * ahead;
   }
 };
 static_assert(Limiter<Unlimited>);
 
-/// kappa = 1/3 blended to the cell's value by van Albada's ratio, which is 1 + O(h^2) where the solution is smooth.
+inline constexpr double squared_difference_floor = 1e-300;  ///< any: a limiter's quotient of equal cells is then no 0/0
+
+/// kappa = 1/3 blended to the cell's value by van Albada's ratio, which is 1 + O(h^2) where the solution is smooth and has no
+/// extremum.
 struct VanAlbada {
   static constexpr std::string_view name = "van_albada";
   template <class Real>
-  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead, double smooth) const {
-    const Real s = max((2.0 * behind * ahead + floor_of(smooth)) / (behind * behind + ahead * ahead + floor_of(smooth)), 0.0);
+  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead) const {
+    constexpr double floor = squared_difference_floor;
+    const Real s = max((2.0 * behind * ahead + floor) / (behind * behind + ahead * ahead + floor), 0.0);
     return 0.25 * s * ((behind + ahead) + (1.0 / 3.0) * s * (ahead - behind));
   }
-  static double floor_of(double smooth) { return smooth > 1e-300 ? smooth : 1e-300; }  // 0/0 of equal cells
 };
 static_assert(Limiter<VanAlbada>);
 
@@ -60,34 +61,24 @@ static_assert(Limiter<VanAlbada>);
 struct VanLeer {
   static constexpr std::string_view name = "van_leer";
   template <class Real>
-  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead, double smooth) const {
-    // As a weight on the mean of the differences, 1 where both are small.
+  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead) const {
+    // As a weight on the mean of the differences.
     const Real product = max(behind * ahead, 0.0), mean = 0.5 * (behind + ahead);
-    const double floor = VanAlbada::floor_of(smooth);
+    constexpr double floor = squared_difference_floor;
     return 0.5 * mean * ((product + floor) / (mean * mean + floor));
   }
 };
 static_assert(Limiter<VanLeer>);
 
-/// The smaller of the two differences, zero where their signs differ; ignores `smooth`.
+/// The smaller of the two differences, zero where their signs differ.
 struct Minmod {
   static constexpr std::string_view name = "minmod";
   template <class Real>
-  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead, double) const {
+  SPINDRIFT_INLINE Real operator()(const Real& behind, const Real& ahead) const {
     return 0.5 * (max(min(behind, ahead), 0.0) + min(max(behind, ahead), 0.0));
   }
 };
 static_assert(Limiter<Minmod>);
-
-/// `smooth` of each variable for cells of relative size h (a cell over the length on which the flow varies): (K h)^3 times the
-/// square of the variable's scale, after Venkatakrishnan (1995), J. Comput. Phys. 118, 120. Scales: rho U^2, U, U^2/cp + what the
-/// temperature itself varies by.
-inline Primitive<double> smoothness(const IdealGas& gas, double rho, double speed, double temperature_scale, double h,
-                                    double K = 1.0) {
-  const double fraction = (K * h) * (K * h) * (K * h), p = rho * speed * speed, T = speed * speed / gas.cp() + temperature_scale;
-  const double u2 = fraction * speed * speed;
-  return {fraction * p * p, u2, u2, u2, fraction * T * T};
-}
 
 /// States on both sides of a face, and how many of them (0, 1, 2) fell back to their cell's value to stay positive.
 template <class Real>
@@ -98,17 +89,16 @@ struct FaceStates {
 
 /// One number, of the cell and its differences behind and ahead.
 template <class Limiter, class Real>
-SPINDRIFT_INLINE Real reconstruct(const Limiter& limiter, const Real& behind, const Real& cell, const Real& ahead,
-                                  double smooth) {
-  return cell + limiter(cell - behind, ahead - cell, smooth);
+SPINDRIFT_INLINE Real reconstruct(const Limiter& limiter, const Real& behind, const Real& cell, const Real& ahead) {
+  return cell + limiter(cell - behind, ahead - cell);
 }
 
 template <class Limiter, class Real>
 SPINDRIFT_INLINE Primitive<Real> reconstruct(const Limiter& limiter, const Primitive<Real>& behind, const Primitive<Real>& cell,
-                                             const Primitive<Real>& ahead, const Primitive<double>& smooth) {
-  return {reconstruct(limiter, behind.p, cell.p, ahead.p, smooth.p), reconstruct(limiter, behind.u, cell.u, ahead.u, smooth.u),
-          reconstruct(limiter, behind.v, cell.v, ahead.v, smooth.v), reconstruct(limiter, behind.w, cell.w, ahead.w, smooth.w),
-          reconstruct(limiter, behind.T, cell.T, ahead.T, smooth.T)};
+                                             const Primitive<Real>& ahead) {
+  return {reconstruct(limiter, behind.p, cell.p, ahead.p), reconstruct(limiter, behind.u, cell.u, ahead.u),
+          reconstruct(limiter, behind.v, cell.v, ahead.v), reconstruct(limiter, behind.w, cell.w, ahead.w),
+          reconstruct(limiter, behind.T, cell.T, ahead.T)};
 }
 
 /// The two reconstructed states, each as a whole its cell's where it has lost too much.
@@ -130,9 +120,9 @@ SPINDRIFT_INLINE FaceStates<Real> kept_positive(const IdealGas& gas, const Primi
 template <class Limiter, class Real>
 SPINDRIFT_INLINE FaceStates<Real> muscl(const IdealGas& gas, const Limiter& limiter, const Primitive<Real>& before_left,
                                         const Primitive<Real>& left, const Primitive<Real>& right,
-                                        const Primitive<Real>& after_right, const Primitive<double>& smooth, double least = 0.3) {
-  const Primitive<Real> l = reconstruct(limiter, before_left, left, right, smooth);
-  const Primitive<Real> r = reconstruct(limiter, after_right, right, left, smooth);
+                                        const Primitive<Real>& after_right, double least = 0.3) {
+  const Primitive<Real> l = reconstruct(limiter, before_left, left, right);
+  const Primitive<Real> r = reconstruct(limiter, after_right, right, left);
   return kept_positive(gas, left, l, right, r, least);
 }
 
@@ -146,9 +136,9 @@ SPINDRIFT_INLINE FaceStates<Real> muscl_by_size(const IdealGas& gas, const std::
                        const Primitive<Real>& ahead) {
     Primitive<Real> state = cell + (by_size.behind * (cell - behind) + by_size.ahead * (ahead - cell));
     if constexpr (even_velocity) {
-      state.u = reconstruct(Unlimited{}, behind.u, cell.u, ahead.u, 0.0);
-      state.v = reconstruct(Unlimited{}, behind.v, cell.v, ahead.v, 0.0);
-      state.w = reconstruct(Unlimited{}, behind.w, cell.w, ahead.w, 0.0);
+      state.u = reconstruct(Unlimited{}, behind.u, cell.u, ahead.u);
+      state.v = reconstruct(Unlimited{}, behind.v, cell.v, ahead.v);
+      state.w = reconstruct(Unlimited{}, behind.w, cell.w, ahead.w);
     }
     return state;
   };

@@ -159,7 +159,6 @@ int main(int argc, char** argv) {
   group.figure("ceiling", peak * 1e-9, "GFLOP/s", "multiply-add, double, one core, processor time");
   IdealGas gas;
   gas.pressure_reference = 101325.0, gas.temperature_reference = 288.15;
-  const auto smooth = smoothness(gas, 1.2, 60.0, 0.0, 0.05);
 
   const auto flux = [&](const auto& scheme) {
     report(group, "flux/" + std::string(scheme.name), "ns/face", peak, rows,
@@ -169,7 +168,7 @@ int main(int argc, char** argv) {
   const auto second_order = [&](const auto& limiter, const auto& scheme) {
     report(group, "muscl_flux/" + std::string(limiter.name) + "/" + std::string(scheme.name), "ns/face", peak, rows,
            [&](const auto& c) {
-             const auto s = muscl(gas, limiter, c.state(-2), c.state(-1), c.state(), c.state(1), smooth);
+             const auto s = muscl(gas, limiter, c.state(-2), c.state(-1), c.state(), c.state(1));
              return total(scheme(gas, s.l, s.r, c.face())) + s.fallbacks;
            });
   };

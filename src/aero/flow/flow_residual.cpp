@@ -37,7 +37,6 @@ FlowResidual::FlowResidual(const FlowSetting& s, const ModelSweeps& model, const
   if (s.speed <= 0.0) throw std::invalid_argument("flow: the scale of velocity must be positive");
   convective_.gas = viscous_.gas = boundary_.gas = s.gas;
   const double rho = gas::density(s.gas, s.stream);
-  if (s.smooth > 0.0) convective_.smooth = gas::smoothness(s.gas, rho, s.speed, 0.0, s.smooth);
   use_limiter(s.limiter);
   convective_.flux = row_flux(s.flux);
   convective_.upwinding = s.upwinding;

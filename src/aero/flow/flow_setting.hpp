@@ -34,7 +34,6 @@ struct FlowSetting {
   std::optional<double> wind_intensity;       ///< of its turbulence, of two equations: k = 3/2 (intensity times wind)^2
   double upwinding = 1.0;                     ///< share of the jump between reconstructed states in the flux
   bool viscous = false, thin_layer = false;
-  double smooth = 0.0;  ///< cell size over flow length: differences below its limiter threshold are smooth; 0: all limited
   bool preconditioned = true;
   bool physical_far_field = false;  ///< its waves at their own speeds also where the pseudo-time is preconditioned
   /// Dissipation in the matrix where the flux is low-Mach Roe. Empty: that of the preconditioned equations, good at any Mach

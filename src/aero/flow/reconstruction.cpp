@@ -12,9 +12,8 @@ namespace spindrift::aero {
 namespace {
 
 template <class Limiter, bool even_velocity = false>
-void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at, std::ptrdiff_t step,
-                     std::ptrdiff_t component, const double* volume, std::ptrdiff_t volume_step, int turbulence, int count,
-                     FacePiece& states) {
+void reconstruct_row(const gas::IdealGas& gas, const double* at, std::ptrdiff_t step, std::ptrdiff_t component,
+                     const double* volume, std::ptrdiff_t volume_step, int turbulence, int count, FacePiece& states) {
   for (int n = 0; n < count; n += row_lanes, at += row_lanes) {
     const auto load = [&](std::ptrdiff_t offset) { return gas::load_primitive<Row>(at + offset, std::size_t(component)); };
     const auto s = [&] {
@@ -24,7 +23,7 @@ void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smo
         return gas::muscl_by_size<even_velocity>(gas, std::array<Row, 4>{size(-2), size(-1), size(0), size(1)}, load(-2 * step),
                                                  load(-step), load(0), load(step));
       } else {
-        return gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step), smooth);
+        return gas::muscl(gas, Limiter{}, load(-2 * step), load(-step), load(0), load(step));
       }
     }();
     gas::store_primitive(states.left[0] + n, piece, s.l);
@@ -33,8 +32,8 @@ void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smo
     for (int t = mean_unknowns; t < mean_unknowns + turbulence; ++t) {
       const double* from = at + t * component;
       const Row b = Row::load(from - 2 * step), l = Row::load(from - step), r = Row::load(from), a = Row::load(from + step);
-      gas::reconstruct(gas::Minmod{}, b, l, r, 0.0).store(states.left[t] + n);
-      gas::reconstruct(gas::Minmod{}, a, r, l, 0.0).store(states.right[t] + n);
+      gas::reconstruct(gas::Minmod{}, b, l, r).store(states.left[t] + n);
+      gas::reconstruct(gas::Minmod{}, a, r, l).store(states.right[t] + n);
     }
   }
 }
@@ -42,7 +41,7 @@ void reconstruct_row(const gas::IdealGas& gas, const gas::Primitive<double>& smo
 /// No reconstruction: first order.
 struct FirstOrder {
   template <class Real>
-  SPINDRIFT_INLINE Real operator()(const Real&, const Real&, double) const {
+  SPINDRIFT_INLINE Real operator()(const Real&, const Real&) const {
     return Real(0.0);
   }
 };

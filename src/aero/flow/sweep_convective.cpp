@@ -61,7 +61,7 @@ void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int 
             double* out, std::ptrdiff_t stride) {
   FacePiece states;
   const Reconstruction reconstruct = along_wall(tile, d, k, j) ? s.reconstruct.along_wall : s.reconstruct.plain;
-  reconstruct(s.gas, s.smooth, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component,
+  reconstruct(s.gas, state + tile.cells.at(k, j, i), tile.cells.stride(d), tile.cells.component,
               tile.geometry->volume_data.data() + tile.geometry->cell_box.at(k, j, i), tile.geometry->cell_box.stride(d),
               tile.turbulence, count, states);
   straighten_at_walls(tile, state, d, k, j, i, count, s.law_slope, states);

@@ -21,9 +21,8 @@ struct FacePiece {
 
 /// Fills `states` for `count` faces; the cell right of the first face is at `at`, left of it one `step` back; its volume is at
 /// `volume`, in steps of `volume_step`.
-using Reconstruction = void (*)(const gas::IdealGas& gas, const gas::Primitive<double>& smooth, const double* at,
-                                std::ptrdiff_t step, std::ptrdiff_t component, const double* volume, std::ptrdiff_t volume_step,
-                                int turbulence, int count, FacePiece& states);
+using Reconstruction = void (*)(const gas::IdealGas& gas, const double* at, std::ptrdiff_t step, std::ptrdiff_t component,
+                                const double* volume, std::ptrdiff_t volume_step, int turbulence, int count, FacePiece& states);
 /// Flux through `count` faces from (k, j, i) on: component c of face n at out[c stride + n].
 using RowFlux = void (*)(const gas::IdealGas& gas, const TileGeometry& geometry, int direction, int k, int j, int i, int count,
                          const FacePiece& states, double* out, std::ptrdiff_t stride);
@@ -40,7 +39,6 @@ RowFlux row_flux(std::string_view flux);
 
 struct ConvectiveSetting {
   gas::IdealGas gas;
-  gas::Primitive<double> smooth{};  ///< differences that no limiter touches
   Reconstructions reconstruct;
   RowFlux flux = nullptr;
   bool first_order_model = false;  ///< what turbulence carries by its upwind cell, unreconstructed

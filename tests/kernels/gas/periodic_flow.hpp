@@ -36,11 +36,11 @@ class PeriodicFlow {
   }
 
   template <class Scheme, class Limiter>
-  void step(const Scheme& scheme, const Limiter& limiter, const Primitive<double>& smooth, double dt) {
+  void step(const Scheme& scheme, const Limiter& limiter, double dt) {
     start_ = q_;
     const double old_share[3] = {0.0, 0.75, 1.0 / 3.0};
     for (const double old : old_share) {
-      find_rate(scheme, limiter, smooth);
+      find_rate(scheme, limiter);
       for (int j = 0; j < n_; ++j)
         for (int i = 0; i < n_; i += Row::size) {
           const std::size_t c = place(j, i);
@@ -85,11 +85,11 @@ class PeriodicFlow {
   }
 
   template <class Scheme, class Limiter>
-  void find_rate(const Scheme& scheme, const Limiter& limiter, const Primitive<double>& smooth) {
+  void find_rate(const Scheme& scheme, const Limiter& limiter) {
     wrap();
     const auto face = [&](std::size_t right, std::size_t step, double nx, double ny) {
       const auto load = [&](std::size_t at) { return load_primitive<Row>(w_.data() + at, layer_); };
-      const auto s = muscl(gas_, limiter, load(right - 2 * step), load(right - step), load(right), load(right + step), smooth);
+      const auto s = muscl(gas_, limiter, load(right - 2 * step), load(right - step), load(right), load(right + step));
       return scheme(gas_, s.l, s.r, Face<Row>{Row(nx), Row(ny), Row(0.0), Row(1.0 / h_), Row(0.0)});
     };
     for (int j = 0; j < n_; ++j)
