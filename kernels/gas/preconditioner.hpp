@@ -26,12 +26,11 @@ SPINDRIFT_INLINE PreconditionedSpeeds<Real> preconditioned_speeds(const Real& un
   return {middle - root, middle + root};
 }
 
-/// Square of the reference speed: the largest of the gas's own speed, a floor (some fraction of the stream's speed, which keeps
-/// stagnation points regular), the viscous speed nu/h, and what an unsteady step asks for, length / (pi dt); at most c.
+/// Square of the reference speed: the larger of the gas's own speed and a floor, which keeps stagnation points regular; at most
+/// c.
 template <class Real>
-SPINDRIFT_INLINE Real reference_speed_squared(const Real& speed_squared, const Real& floor_squared, const Real& viscous_speed,
-                                              const Real& unsteady_speed, const Real& c2) {
-  return min(max(max(speed_squared, floor_squared), max(viscous_speed * viscous_speed, unsteady_speed * unsteady_speed)), c2);
+SPINDRIFT_INLINE Real reference_speed_squared(const Real& speed_squared, const Real& floor_squared, const Real& c2) {
+  return min(max(speed_squared, floor_squared), c2);
 }
 
 /// What both matrices need of a state: density, its derivatives, total enthalpy above the reference.

@@ -42,7 +42,7 @@ template <class Real>
 SPINDRIFT_INLINE Real reference_squared(const ImplicitSetting& s, const gas::Primitive<Real>& q) {
   const Real c2 = (s.gas.gamma * s.gas.gas_constant) * gas::absolute_temperature(s.gas, q);
   if (!s.preconditioned) return c2;
-  return gas::reference_speed_squared(Real(2.0 * gas::kinetic(q)), Real(s.floor_speed * s.floor_speed), Real(0.0), Real(0.0), c2);
+  return gas::reference_speed_squared(Real(2.0 * gas::kinetic(q)), Real(s.floor_speed * s.floor_speed), c2);
 }
 
 /// Fills the blocks of the mean flow (not the pivots). `eddy` [Pa s] with one ghost in gradient_box, or null.

@@ -84,9 +84,7 @@ TEST_CASE("at low Mach number all preconditioned waves are as slow as the flow",
     CHECK(s.fast / -s.slow == Approx((std::sqrt(5.0) + 1) / (std::sqrt(5.0) - 1)).epsilon(0.05));
     CHECK(s.fast < 1.7 * u);
   }
-  CHECK(reference_speed_squared(4.0, 1.0, 0.0, 0.0, 100.0) == 4.0);
-  CHECK(reference_speed_squared(0.0, 1.0, 0.0, 0.0, 100.0) == 1.0);
-  CHECK(reference_speed_squared(4.0, 1.0, 5.0, 0.0, 100.0) == 25.0);
-  CHECK(reference_speed_squared(4.0, 1.0, 0.0, 6.0, 100.0) == 36.0);
-  CHECK(reference_speed_squared(4e4, 1.0, 0.0, 6.0, 100.0) == 100.0);
+  CHECK(reference_speed_squared(4.0, 1.0, 100.0) == 4.0);
+  CHECK(reference_speed_squared(0.0, 1.0, 100.0) == 1.0);
+  CHECK(reference_speed_squared(4e4, 1.0, 100.0) == 100.0);
 }
