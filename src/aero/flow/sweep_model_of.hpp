@@ -151,26 +151,51 @@ struct SweepsOf : ClosuresOf<Model> {
     if constexpr (n == 2) hold_wall_cells(tile, state, residual, s);
   }
 
-  /// k [m2/s2] and omega [1/s] of the closure's own layer at a distance.
+  /// What the closure's own layer makes of a first cell: omega [1/s] and k omega [m2/s3].
   struct LawTurbulence {
-    double k, omega;
-    /// A wall where nothing moves has the sublayer's omega.
-    static LawTurbulence of(const turbulence::WallLaw& law, double u, double distance, double nu) {
-      if (!(u > 0.0)) return {0.0, 6.0 * nu / (Model::wall_beta * distance * distance)};
-      const double y_plus = u * distance / nu;
-      return {u * u * law.k(y_plus), u * u / nu * law.omega(y_plus)};
+    double omega = 0.0, k_omega = 0.0;
+    /// Of the layer on one wall. A wall where nothing moves has the sublayer's omega.
+    static LawTurbulence of(const turbulence::WallLaw& law, const WallCell& cell) {
+      const double nu = cell.mu / cell.rho, u = turbulence::friction_velocity(law, cell.speed, cell.distance, nu);
+      if (!(u > 0.0)) return {6.0 * nu / (Model::wall_beta * cell.distance * cell.distance), 0.0};
+      const double y_plus = u * cell.distance / nu, omega = u * u / nu * law.omega(y_plus);
+      return {omega, u * u * law.k(y_plus) * omega};
     }
   };
-  /// Calls body(k, j, i, first cell, turbulence of the law) for the cells at walls with a wall function.
+  /// Whether the cell has a face with a wall function on this side of the tile.
+  static bool has_law(const FlowTile& tile, Side side, int k, int j, int i) {
+    const int d = direction_of(side), extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk}, at[3] = {i, j, k};
+    const auto& law = tile.sides[std::size_t(side)].law;
+    if (law.size() == 0 || at[d] != (at_end(side) ? extent[d] - 1 : 0)) return false;
+    const auto [a, b] = along(side);
+    return law.data()[at[b] * open_row(tile.box, d) + at[a]] > 0.0;
+  }
+  /// Calls body(k, j, i, density, turbulence of the law) once for each cell at walls with a wall function. In a corner that is
+  /// the mean over the cell's faces there, by their areas.
   template <class Body>
   static void for_law_cells(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Body&& body) {
     for (const FlowBoundary& boundary : tile.boundaries) {
       if (!boundary.condition->wall_law) continue;
       const Side side = boundary.where.side;
       for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
-        const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
-        const double nu = cell.mu / cell.rho, u = turbulence::friction_velocity(*tile.wall_law, cell.speed, cell.distance, nu);
-        body(k, j, i, cell, LawTurbulence::of(*tile.wall_law, u, cell.distance, nu));
+        std::array<double, 6> areas{};
+        double area = 0.0;
+        for (int n = 0; n < 2 * tile.directions; ++n) {
+          if (!has_law(tile, Side(n), k, j, i)) continue;
+          if (n < int(side)) return;  // the cell's turn was on that side
+          areas[std::size_t(n)] = outward_face(*tile.geometry, Side(n), k, j, i).area;
+          area += areas[std::size_t(n)];
+        }
+        LawTurbulence mean;
+        double rho = 0.0;
+        for (int n = int(side); n < 2 * tile.directions; ++n) {
+          if (areas[std::size_t(n)] == 0.0) continue;
+          const WallCell cell = wall_cell(tile, state, gas, Side(n), k, j, i);
+          const LawTurbulence law = LawTurbulence::of(*tile.wall_law, cell);
+          const double share = areas[std::size_t(n)] / area;
+          mean.omega += share * law.omega, mean.k_omega += share * law.k_omega, rho = cell.rho;
+        }
+        body(k, j, i, rho, mean);
       });
     }
   }
@@ -179,15 +204,15 @@ struct SweepsOf : ClosuresOf<Model> {
   /// too, so that k is the law's there. With the model's own production, mu_t times the law's slope squared, any k would balance
   /// its destruction.
   static void hold_wall_cells(FlowTile& tile, const double* state, double* residual, const ViscousSetting& s) {
-    for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
+    for_law_cells(tile, state, s.gas, [&](int k, int j, int i, double rho, const LawTurbulence& law) {
       const int row = i / row_lanes * row_lanes;
       const Cell cell = load_cell(tile, state, s, k, j, row);
       const double volume = tile.geometry->volume_data.data()[tile.geometry->cell_box.at(k, j, i)];
       const double q[2] = {cell.model.q[0][i - row], cell.model.q[1][i - row]};
       double* to = residual + tile.inner.at(k, j, i) + mean_unknowns * tile.inner.component;
-      const double destroyed = Model::beta_star * wall.rho * (q[0] * q[1] - law.k * law.omega);
+      const double destroyed = Model::beta_star * rho * (q[0] * q[1] - law.k_omega);
       to[0] += volume * (Model{}.source(cell.flow, cell.model).rate[0][i - row] + destroyed);
-      to[tile.inner.component] = volume * wall.rho * law.omega * (q[1] - law.omega);
+      to[tile.inner.component] = volume * rho * law.omega * (q[1] - law.omega);
     });
   }
 
@@ -274,13 +299,13 @@ struct SweepsOf : ClosuresOf<Model> {
       });
     }
     if constexpr (n == 2)
-      for_law_cells(tile, state, s.gas, [&](int k, int j, int i, const WallCell& wall, const LawTurbulence& law) {
+      for_law_cells(tile, state, s.gas, [&](int k, int j, int i, double rho, const LawTurbulence& law) {
         const std::ptrdiff_t cell = (std::ptrdiff_t(k) * box.nj + j) * box.ni + i;
         a.block(cell, a.diagonal)[1] = 0.0f;
         for (int side = 0; side < 2 * tile.directions; ++side) a.side(cell, side)[1] = a.side(cell, side)[3] = 0.0f;
         const double volume = g.volume_data.data()[g.cell_box.at(k, j, i)];
         const double time = tile.rate.data()[tile.inner.at(k, j, i)] / cfl + volume * s.physical_rate;
-        a.block(cell, 0)[3] = float(unit[1][1] * wall.rho * (time + volume * law.omega));
+        a.block(cell, 0)[3] = float(unit[1][1] * rho * (time + volume * law.omega));
       });
   }
 

@@ -93,6 +93,39 @@ TEST_CASE("a wall with a wall function, or no wall, is not held at a temperature
   CHECK_THROWS_AS(Case(cartesian_box(box), air(0.1), {{"i_min", warm}}), std::invalid_argument);
 }
 
+TEST_CASE("the first cell in a corner of walls with a wall function has the mean turbulence of both by their areas",
+          "[flow][fast]") {
+  FlowSetting s = air(0.1, {2.0, 0.3, 1.0});  // faster along j_min than along k_min
+  s.viscous = true, s.turbulence = "sst", s.limiter = "first_order", s.wind_eddy_viscosity = 1000.0, s.wind_intensity = 0.01;
+  // The corner cell's face on k_min is twice as large as that on j_min.
+  const BoxOptions box{.ni = 1, .nj = 2, .nk = 4};
+  struct Corner {
+    double k, omega;  ///< residual of k; omega of the law
+  };
+  const auto corner = [&](Condition on_j, Condition on_k) {
+    const PatchCondition open{Condition::far_field, false};
+    Case c(cartesian_box(box), s,
+           {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"k_max", open}, {"j_min", {on_j}}, {"k_min", {on_k}}});
+    fill_wall_distance(*c.store, wall_surface(c.grid, std::vector<std::string>{"j_min", "k_min"}));
+    FlowTile& tile = c.solver->tiles().front();
+    double* state = tile.state.data();
+    const PhysicalTime steady;
+    const FlowResidual residual(s, model_sweeps(s.turbulence), steady);
+    residual.fill_ghosts(tile, state), residual.gradients(tile, state), residual.fill_gradient_ghosts(tile, state);
+    residual.evaluate(tile, state, tile.residual.data());
+    const double* at = tile.residual.data() + tile.inner.at(0, 0, 0) + mean_unknowns * tile.inner.component;
+    const double mass = tile.geometry->volume_data.data()[tile.geometry->cell_box.at(0, 0, 0)] * gas::density(s.gas, s.stream);
+    const double omega = value(tile, mean_unknowns + 1);  // below the law's; at[c] = mass law (omega - law)
+    return Corner{at[0], 0.5 * (omega + std::sqrt(omega * omega - 4.0 * at[tile.inner.component] / mass))};
+  };
+  const Corner j = corner(Condition::wall_function, Condition::slip), k = corner(Condition::slip, Condition::wall_function),
+               both = corner(Condition::wall_function, Condition::wall_function);
+  CAPTURE(j.k, k.k, both.k, j.omega, k.omega, both.omega);
+  CHECK(j.omega > 1.01 * k.omega);
+  CHECK(both.omega == Approx((j.omega + 2.0 * k.omega) / 3.0).epsilon(1e-9));
+  CHECK(both.k == Approx((j.k + 2.0 * k.k) / 3.0).epsilon(1e-9));
+}
+
 TEST_CASE("friction of a wall function is along the wall, the turbulence's push counts as pressure", "[flow][fast]") {
   FlowSetting s = air(0.1);
   s.viscous = true, s.turbulence = "sst", s.wind_eddy_viscosity = 100.0, s.wind_intensity = 0.1;
