@@ -116,7 +116,9 @@ void fill_boundaries(FlowTile& tile, double* state, const BoundarySetting& s) {
       if (condition.wall_law && tile.turbulence == 2) {
         // As inside: no flux of k; omega of that cell is given by the law of the wall.
       } else if (sticks(condition)) {
-        const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, inside_mean)) / gas::density(s.gas, inside_mean);
+        gas::Primitive<double> wall = inside_mean;
+        wall.T = 0.5 * (inside_mean.T + ghosts.first.T);
+        const double nu = gas::viscosity(s.gas, gas::absolute_temperature(s.gas, wall)) / gas::density(s.gas, wall);
         s.wall_carried(inside, nu, g.wall_distance_data.data()[g.inner_box.at(k, j, i)], ghost);
       } else if (!is_wall(condition) && gas::normal_velocity(inside_mean, f) < f.speed) {
         for (int t = 0; t < tile.turbulence; ++t) ghost[t] = s.carried[std::size_t(t)];

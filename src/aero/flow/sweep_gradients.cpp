@@ -129,14 +129,17 @@ void fill_boundary_gradients(FlowTile& tile, const double* state, const gas::Ide
       if (!sticks) return;
       ghost[eddy * c] = -at[eddy * c];  // on the wall there is no eddy viscosity
       if (!free) ghost[(eddy + 1) * c] = -at[(eddy + 1) * c];
-      const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
-      const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, q));
       if (boundary.condition->wall_law) {
         // The face's share is such that half the difference of cell and ghost over the distance gives the law's friction.
         const WallCell cell = wall_cell(tile, state, gas, side, k, j, i);
         ghost[eddy * c] +=
             2.0 * (turbulence::wall_viscosity(*tile.wall_law, cell.speed, cell.distance, cell.rho, cell.mu) - cell.mu);
       }
+      const std::size_t component = std::size_t(tile.cells.component);
+      const double* cell = state + tile.cells.at(k, j, i);
+      const double* beyond = cell + (at_end(side) ? 1 : -1) * tile.cells.stride(direction_of(side));
+      const auto wall = 0.5 * (gas::load_primitive<double>(cell, component) + gas::load_primitive<double>(beyond, component));
+      const double mu = gas::viscosity(gas, gas::absolute_temperature(gas, wall));
       for (int t = 0; t < carried; ++t)
         ghost[(eddy + 2 + t) * c] = 2.0 * wall_spread[std::size_t(t)] * mu - at[(eddy + 2 + t) * c];
     });

@@ -93,6 +93,44 @@ TEST_CASE("a wall with a wall function, or no wall, is not held at a temperature
   CHECK_THROWS_AS(Case(cartesian_box(box), air(0.1), {{"i_min", warm}}), std::invalid_argument);
 }
 
+TEST_CASE("on a wall held at a temperature turbulence has the viscosity of that temperature", "[flow][fast]") {
+  const double wall = 358.15;
+  for (const char* closure : {"sa", "sst"}) {
+    FlowSetting s = air(0.1);
+    s.viscous = true, s.turbulence = closure;
+    const PatchCondition open{Condition::far_field, false};
+    Case c(
+        planar_box({.ni = 8, .nj = 8}), s,
+        {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"j_min", {.condition = Condition::no_slip, .temperature = wall}}});
+    fill_wall_distance(*c.store, wall_surface(c.grid, std::vector<std::string>{"j_min"}));
+    FlowTile& tile = c.solver->tiles().front();
+    double* state = tile.state.data();
+    const PhysicalTime steady;
+    const ModelSweeps& model = model_sweeps(closure);
+    const FlowResidual residual(s, model, steady);
+    residual.fill_ghosts(tile, state), residual.gradients(tile, state), residual.fill_gradient_ghosts(tile, state);
+    const double mu = gas::viscosity(s.gas, wall), nu = mu * s.gas.gas_constant * wall / s.gas.pressure_reference;
+    for (const FlowBoundary& boundary : tile.boundaries) {
+      if (!boundary.temperature) continue;
+      const Side side = boundary.where.side;
+      const int d = direction_of(side), out = at_end(side) ? 1 : -1;
+      for_window(tile, side, boundary.where.low, boundary.where.high, [&](int k, int j, int i) {
+        const auto on_face = [&](const double* of, const BoxLayout& box) {
+          const std::ptrdiff_t cell = box.at(k, j, i);
+          return 0.5 * (of[cell] + of[cell + out * box.stride(d)]);
+        };
+        const BoxLayout& box = tile.gradient_box;
+        for (int t = 0; t < model.equations; ++t)
+          CHECK(on_face(tile.gradients.data() + (eddy_component(model.equations) + 2 + t) * box.component, box) ==
+                Approx(model.wall_spread[std::size_t(t)] * mu).epsilon(1e-12));
+        if (model.equations == 2)  // Menter (1994), eq. A12, at a first centre 1/16 m from the wall
+          CHECK(on_face(state + (mean_unknowns + 1) * tile.cells.component, tile.cells) ==
+                Approx(60.0 / 0.075 * nu * 256.0).epsilon(1e-9));
+      });
+    }
+  }
+}
+
 TEST_CASE("the first cell in a corner of walls with a wall function has the mean turbulence of both by their areas",
           "[flow][fast]") {
   FlowSetting s = air(0.1, {2.0, 0.3, 1.0});  // faster along j_min than along k_min
