@@ -350,8 +350,8 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   begun.ranks = world.size, begun.threads = threads;
   const auto says_begun = [&] { write_summary_of_start(directory.summary(), begun); };
   if (world.rank == 0 && directory.resumes())
-    settings.began = says_begun;  // until then the summary of the run before stands
-  else if (world.rank == 0)
+    settings.began = says_begun;                                              // until then the summary of the run before stands
+  else if (world.rank == 0 && !std::filesystem::exists(directory.summary()))  // of a rank that ends the run already
     says_begun();
   const runtime::Heartbeat::LastWords last_words(summary_by_force(directory, world, begun));
   const auto complete = [&](io::Summary& summary) {

@@ -113,7 +113,8 @@ SummaryOfOthers::SummaryOfOthers(std::filesystem::path path) : path_(std::move(p
 void SummaryOfOthers::write_instead(const Summary& summary, int rank) const try {
   std::this_thread::sleep_for(std::chrono::seconds(1));
   const std::string now = text_of(path_);
-  if (now.empty() || (now != before_ && exit_code_of(now))) return;
+  // Without one the folder is that of another computer, unless rank 0 has begun to write in it.
+  if (now.empty() ? !std::filesystem::exists(path_.parent_path() / "scene.toml") : now != before_ && exit_code_of(now)) return;
   std::filesystem::path own = path_;  // whoever comes last counts, and none writes into another's file
   own += ".rank_" + std::to_string(rank);
   write_summary(own, summary);

@@ -175,6 +175,10 @@ TEST_CASE("a rank that fails alone says so in the summary, unless the first rank
   const auto code = [&] { return nlohmann::json::parse(io::read_file(file))["exit_code"]; };
   io::SummaryOfOthers(file).write_instead(with_code(4), 3);
   CHECK_FALSE(fs::exists(file));  // another computer's disk
+  std::ofstream(folder / "scene.toml") << "";
+  io::SummaryOfOthers(file).write_instead(with_code(4), 3);  // of a first rank that came no further
+  CHECK(code() == 4);
+  fs::remove(folder / "scene.toml");
 
   io::write_summary_of_start(file, {});
   const io::SummaryOfOthers begun(file);
