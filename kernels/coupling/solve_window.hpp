@@ -28,7 +28,7 @@ concept RepeatableWindow = requires(W window, const Vector& x) {
 struct IterationLimits {
   double relative = 1e-6;    ///< of the piece's first residual
   double absolute = 0.0;     ///< in units of x
-  double of_output = 0.0;    ///< of the size of what the parts return
+  double of_output = 0.0;    ///< of the size of what the parts return: window.size_of(output) where it has that, else the norm
   int max_evaluations = 50;  ///< of one attempt, probes included
   double diverged = 1e4;     ///< times the first residual, or the first x where that is more: given up
   double fallback_relaxation = 0.05;
@@ -59,6 +59,14 @@ struct WindowLog {
 
 namespace detail {
 
+template <class Window>
+double size_of(const Window& window, const Vector& output) {
+  if constexpr (requires { window.size_of(output); })
+    return window.size_of(output);
+  else
+    return output.norm();
+}
+
 /// One attempt from x on; x becomes the last iterate.
 template <RepeatableWindow Window, Scheme S>
 Bound attempt(Window& window, S& scheme, Vector& x, const IterationLimits& limits, int max_evaluations, WindowLog& log) {
@@ -80,7 +88,7 @@ Bound attempt(Window& window, S& scheme, Vector& x, const IterationLimits& limit
     if (!std::isfinite(log.residual)) return Bound::not_finite;
     if (k == 0) log.first_residual = log.residual;
     if (!probe) x = trial;
-    if (log.residual <= std::max(limits.absolute, limits.of_output * output.norm())) return Bound::absolute;
+    if (log.residual <= std::max(limits.absolute, limits.of_output * size_of(window, output))) return Bound::absolute;
     if (log.residual <= limits.relative * log.first_residual) return Bound::relative;
     if (log.residual > limits.diverged * std::max(log.first_residual, scale)) return Bound::divergence;
     trial = scheme.next(trial, r);

@@ -242,6 +242,8 @@ class CoupledWindow::Pieces final : public WindowParts {
   }
   const bodies::BodiesState& state() const { return start_; }
   double load_size() const { return end_load_.norm(); }
+  /// Of the loads alone: of motions an azimuth grows with every turn.
+  double size_of(const Vector& output) const { return output.head(load_rows()).norm(); }
 
  private:
   void save_start() { w_.sides_.take_snapshot(AirSide::piece); }
