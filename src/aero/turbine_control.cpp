@@ -128,10 +128,10 @@ void TurbineControl::begin(double t, const Measured& measured, std::span<double>
   store(s, memory);
 }
 
-/// A shaft twisted by what the generator takes at the start.
+/// The air's torque before the first step is that of the start; an elastic shaft is twisted by what the generator takes then.
 void TurbineControl::lay_shaft(const Measured& measured, State& s, std::span<double> memory) const {
+  s.acceleration = measured.torque / turned_inertia(measured);
   if (!has_elastic_shaft()) return;
-  s.acceleration = measured.torque / (drive_train_.rotor_inertia_kg_m2 - measured.bending_inertia);
   store(Shaft{s.generator_torque / *drive_train_.shaft_stiffness_N_m_rad, s.speed, s.generator_torque}, memory);
 }
 
@@ -253,12 +253,16 @@ void TurbineControl::turn_blades(double h, const Rows& rows) const {
   }
 }
 
-/// Under the torque that the generator had: Adams-Bashforth, second order.
+/// Of what the air's torque turns: the whole drive train, or the rotor on its elastic shaft [kg m2].
+double TurbineControl::turned_inertia(const Measured& measured) const {
+  return drive_train_.rotor_inertia_kg_m2 + (has_elastic_shaft() ? 0.0 : drive_train_.generator_inertia_kg_m2) -
+         measured.bending_inertia;
+}
+
+/// Under the torque of the air by Adams and Bashforth, and of the generator, which holds over the step.
 void TurbineControl::turn_rigid(double h, const Measured& measured, State& s) const {
-  const double inertia = drive_train_.rotor_inertia_kg_m2 + drive_train_.generator_inertia_kg_m2 - measured.bending_inertia;
-  const double acceleration = (measured.torque - s.generator_torque) / inertia;
-  const double before = s.speed;
-  s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration);
+  const double inertia = turned_inertia(measured), acceleration = measured.torque / inertia, before = s.speed;
+  s.speed += h * (1.5 * acceleration - 0.5 * s.acceleration - s.generator_torque / inertia);
   if (const double stop = h * brake(s) / inertia; stop > 0.0) s.speed -= std::clamp(s.speed, -stop, stop);
   s.acceleration = acceleration;
   s.shaft_torque = measured.torque - inertia * (s.speed - before) / h;
@@ -269,8 +273,8 @@ void TurbineControl::turn_rigid(double h, const Measured& measured, State& s) co
 /// and without damping of its own. The air's torque is extrapolated to the middle of the step.
 void TurbineControl::turn_elastic(double h, const Measured& measured, State& s, std::span<double> memory) const {
   Shaft shaft = this->shaft(memory);
-  const double rotor = drive_train_.rotor_inertia_kg_m2 - measured.bending_inertia,
-               generator = drive_train_.generator_inertia_kg_m2, stiffness = *drive_train_.shaft_stiffness_N_m_rad;
+  const double rotor = turned_inertia(measured), generator = drive_train_.generator_inertia_kg_m2,
+               stiffness = *drive_train_.shaft_stiffness_N_m_rad;
   const double acceleration = measured.torque / rotor, by_air = 1.5 * acceleration - 0.5 * s.acceleration;
   const double before = s.speed, generator_before = shaft.generator_speed, looseness = 1.0 / rotor + 1.0 / generator;
   const double per_rate = 0.5 * h * stiffness + drive_train_.shaft_damping_N_m_s_rad;

@@ -28,8 +28,7 @@ class TurbineControl {
   struct State {
     double time;              ///< [s]
     double azimuth, speed;    ///< of blade 1 [rad], [rad/s]
-    double acceleration;      ///< before the last step, of which the next makes a second-order one [rad/s2]; of an elastic shaft
-                              ///< by the air alone
+    double acceleration;      ///< by the air, before the last step, of which the next makes a second-order one [rad/s2]
     double generator_torque;  ///< over the next step, on the shaft [N m]
     double shaft_torque;      ///< of the last step, on what carries the rotor, brake included [N m]
     double mode;              ///< one of Mode
@@ -102,6 +101,7 @@ class TurbineControl {
   bool happen(double after, double t, State& s, std::span<double> stuck) const;
   double brake(const State& s) const;
   void lay_shaft(const Measured& measured, State& s, std::span<double> memory) const;
+  double turned_inertia(const Measured& measured) const;
   void turn_rigid(double h, const Measured& measured, State& s) const;
   void turn_elastic(double h, const Measured& measured, State& s, std::span<double> memory) const;
   void ask_law(double h, const Measured& measured, double speed, State& s, const Rows& rows) const;

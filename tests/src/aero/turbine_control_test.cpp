@@ -40,6 +40,21 @@ TEST_CASE("the shaft obeys Newton: torque in less torque out is inertia times ac
   }
 }
 
+TEST_CASE("the generator's torque holds over a step, also the first and where it jumps", "[aero][fast]") {
+  const TurbineControl control = made({.model = ControlModel::dtu, .events = {{.what = ControlEvent::grid_loss, .time_s = 1.0}}});
+  const double inertia = control.drive_train().rotor_inertia_kg_m2 + control.drive_train().generator_inertia_kg_m2;
+  constexpr double air = 5e6, h = 0.05;  // of air whose torque stays each step is exact
+  std::vector<double> memory(control.memory_size());
+  control.begin(0.0, {air, 9.0}, memory);
+  for (int n = 1; n <= 40; ++n) {
+    const TurbineControl::State before = TurbineControl::state(memory);
+    control.advance(h * n, h, {air, 9.0}, memory);
+    CHECK(inertia * (TurbineControl::state(memory).speed - before.speed) ==
+          Approx(h * (air - before.generator_torque)).epsilon(1e-9));
+  }
+  CHECK(TurbineControl::state(memory).generator_torque == 0.0);
+}
+
 TEST_CASE("a run begins with what the law asks of the generator, whatever the air's torque at that instant", "[aero][fast]") {
   const double air = GENERATE(4e6, 14e6), rated = 1.0053;
   const ControllerDtu law = law_of({.model = ControlModel::dtu}, read_controller(turbines + "dtu_10mw_controller.toml"),
