@@ -219,6 +219,11 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("sea.initial.state", "must not be \"standing\" with waves.model '" + waves.model +
                                    "': two of these that meet are no wave that stands; use 'airy'");
   if (o.starts_in_waves() && !o.water.empty()) wrong("sea.initial.state", "fills the tank: no [[sea.water]]");
+  if (o.starts_in_waves() && !t.bed_m.empty())
+    wrong("sea.tank.bed_m", "must not be given with a start in waves: these are of a level bed at environment.water_depth_m");
+  if (o.starts_in_waves() && waved && !planar && t.sides_y == "wall" &&
+      (std::abs(std::sin(waves.direction)) > 1e-9 || waves.spreading_exponent))
+    wrong("sea.initial.state", "must not have waves that run into the walls of sea.tank.sides_y: let these repeat, or be open");
   if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
     wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
   if (o.wavemaker) {
@@ -235,6 +240,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       wrong("sea.wavemaker.hinge_m", fmt::format("must lie between the bed at {} m and still water", bed));
     if (o.initial && w.start_s < -o.initial->settle_s)
       wrong("sea.wavemaker.start_s", fmt::format("is before the sea starts at {} s", 0.0 - o.initial->settle_s));
+    if (const double begin = o.initial ? 0.0 - o.initial->settle_s : 0.0; o.starts_in_waves() && w.start_s > begin)
+      wrong("sea.wavemaker.start_s",
+            fmt::format("must be {} s, when the sea begins in waves: the paddle would stand in moving water", begin));
     if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
   }
 
@@ -365,10 +373,12 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       if (outside_x || outside_y) wrong(key, "stands in a wall of the tank" + size);
       for (int axis = 0; axis < (planar ? 1 : 2); ++axis) {
         const std::array<double, 2>& sides = axis == 0 ? t.x_m : t.y_m;
-        if ((axis == 0 ? t.sides_x : t.sides_y) == "periodic" && (low[axis] < sides[0] || high[axis] > sides[1]))
-          wrong(key, fmt::format("reaches {0} = {1:.4g} m, over a side of the tank that repeats (sea.tank.sides_{0}): water goes "
-                                 "round there, bodies do not{2}",
-                                 "xy"[axis], low[axis] < sides[0] ? low[axis] : high[axis], size));
+        const std::string& kind = axis == 0 ? t.sides_x : t.sides_y;
+        if ((kind == "periodic" || kind == "open") && (low[axis] < sides[0] || high[axis] > sides[1]))
+          wrong(key, fmt::format("reaches {0} = {1:.4g} m, over a side of the tank that {3} (sea.tank.sides_{0}): water goes "
+                                 "{4} there, bodies do not{2}",
+                                 "xy"[axis], low[axis] < sides[0] ? low[axis] : high[axis], size,
+                                 kind == "open" ? "is open" : "repeats", kind == "open" ? "out" : "round"));
       }
       for (std::size_t n = 0; n < t.meshes.size(); ++n) {
         const scene::MeshOptions& m = t.meshes[n];

@@ -72,11 +72,12 @@ class ParticleSolids {
       state_.contacts[b] = of_scene(contact_on(sea_.contacts(), owner_of_body_[b], at));
     }
   }
-  /// Throws NumericalFailure where a body has come over a side that repeats: its particles would go round, one by one, and turn
-  /// it from the other side.
+  /// Throws NumericalFailure where a body has come over a side without a wall. Where that repeats its particles would go round,
+  /// one by one, and turn it from the other side; where it is open they would leave, and be counted as water.
   void require_inside(double t_s) const {
     const sph::Domain<dim>& domain = sea_.state().columns.domain();
-    if (std::ranges::find(domain.periodic, true) == domain.periodic.end()) return;
+    const auto walled = [&](int k) { return !domain.periodic[k] && !domain.open[k]; };
+    if (walled(0) && walled(dim - 2)) return;
     for (const sph::Solid& solid : sea_.state().solids) {
       const auto body = std::ranges::find(owner_of_body_, solid.owner) - owner_of_body_.begin();
       if (body == std::ssize(owner_of_body_)) continue;  // the paddle
@@ -87,14 +88,15 @@ class ParticleSolids {
         for (int k = 0; k < dim; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
       }
       for (int k = 0; k < dim - 1; ++k) {
-        if (!domain.periodic[k] || (low[k] >= domain.low[k] && high[k] <= domain.high[k])) continue;
+        if (walled(k) || (low[k] >= domain.low[k] && high[k] <= domain.high[k])) continue;
         const bool below = low[k] < domain.low[k];
         const double limit = below ? domain.low[k] : domain.high[k];
         const std::string axis(1, "xy"[k]), name = names_[std::size_t(body)];
         throw NumericalFailure("t = " + in_words(t_s) + " s: body " + name + " reaches " + axis + " = " +
-                                   in_words(below ? low[k] : high[k]) + " m, over the side at " + in_words(limit) +
-                                   " m that repeats (sea.tank.sides_" + axis +
-                                   "): water goes round there, bodies do not; set the sides farther off, or moor it",
+                                   in_words(below ? low[k] : high[k]) + " m, over the side at " + in_words(limit) + " m that " +
+                                   (domain.open[k] ? "is open" : "repeats") + " (sea.tank.sides_" + axis + "): water goes " +
+                                   (domain.open[k] ? "out" : "round") +
+                                   " there, bodies do not; set the sides farther off, or moor it",
                                "bodies." + name, long(sea_.state().work.steps), t_s, limit);
       }
     }

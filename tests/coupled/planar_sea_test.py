@@ -1,4 +1,5 @@
-"""Bodies in a sea of two dimensions stay in its plane whatever pulls them out of it: what holds them has columns, bits are those of a restart and of ranks.
+"""Bodies in a sea of two dimensions stay in its plane whatever pulls them out of it: what holds them has columns, bits are those of a restart and of ranks,
+and their work on the water is the water's on them.
 Usage: planar_sea_test.py SPINDRIFT [TEST...] SPDX-License-Identifier: Apache-2.0"""
 import unittest
 
@@ -36,6 +37,14 @@ class Planar(Folder):
         rail = "joints.rail={type='translational', bodies=['earth', 'box'], point_m=[0.0, 0.0, 0.0], axis=[0.0, 0.0, 1.0]}"
         found = self.run_scene("rail", settings=[*ACROSS, rail])
         self.assertNotIn("plane_box.fy_N", found)
+
+    def test_what_a_dropped_body_works_on_the_water_is_what_the_water_works_on_it(self):
+        for step in ("symplectic", "verlet"):
+            with self.subTest(step):
+                found = self.run_scene(step, "--overwrite", settings=["sea.initial.settle_s=0.0", "sea.initial.settle_damping_1_s=0.0", "bodies.box.mass_kg=30.0",
+                                                                      "bodies.box.displacement_m=[0.0, 0.0, 0.3]", "bodies.box.velocity_m_s=[0.0, 0.0, -3.0]",
+                                                                      f"sea.particles.step={step}"])
+                self.assertAlmostEqual(found["sea.work_of_solids_J"][-1] / -found["energy.sea.work_J"][-1], 1.0, delta=2e-3)   # by the end's velocity: 0.98
 
     def test_check_prints_the_modes_of_the_plane_alone(self):
         said = spindrift("check", SCENE).stdout

@@ -281,6 +281,9 @@ sea.tank.sides_y="symmetric" & sea.tank.y_m=[0.0, 3.0] : bodies.buoy.meshes
 sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].position_m=[0.0, 3.0, 0.0] : bodies.buoy.meshes[0].file
 """,
     "validation/floating_box/floating_box.toml": """
+sea.tank.sides_x="open" & bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0] : bodies.box
+sea.initial.settle_s=0.0 & sea.initial.settle_damping_1_s=0.0 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.tank.bed_m=[[-1.0, -0.6], [1.0, -0.3]] : sea.tank.bed_m
+sea.initial.settle_s=0.2 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.wavemaker.type="piston" : sea.wavemaker.start_s
 bodies.box.displacement_m=[0.0, 0.1, 0.05]
 bodies.box.rotation_deg=[5.0, 0.0, 0.0]
 bodies.box.velocity_m_s=[0.0, 0.1, 0.0]
@@ -300,6 +303,7 @@ sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.velocity_
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & bodies.sphere.omega_rad_s=[0.1, 0.0, 0.0] : bodies.sphere.omega_rad_s
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.particles.walls="modified" : sea.particles.walls
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.initial.settle_s=0.0 & sea.initial.settle_damping_1_s=0.0 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.1 & waves.period_s=2.0 & waves.direction_deg=20.0 : waves.direction_deg
+sea.initial.settle_s=0.0 & sea.initial.settle_damping_1_s=0.0 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.1 & waves.period_s=2.0 & waves.direction_deg=20.0 : sea.initial.state
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] : sea.tank.sides_y
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.gauges=[{name="beyond", point_m=[2.0, -1.0]}] : sea.gauges[0]
 sea.tank.y_m=[0.0, 7.0] & sea.tank.sides_y="symmetric" & sea.probes=[{name="beyond", point_m=[2.0, -1.0, -1.0]}] : sea.probes[0]

@@ -49,12 +49,18 @@ void BodyTasks<dim, Real>::record(Half half) {
   auto& r = recording_;
   SeaState<dim, Real>& sea = r.sea;
   const std::string when = half == Half::begin ? "begin" : "middle";
+  // Of a symplectic step in its middle; of Verlet's by the mean of the velocities before and after it (tasks.cpp has the second).
+  const double counted = half == Half::middle ? 1.0 : sea.p.step == StepChoice::verlet ? 0.5 : 0.0;
   for (std::size_t n = 0; n < groups_.size(); ++n) {
     const int g = groups_[n];
     r.graph.task(task_name("load/" + when, std::size_t(g)),
-                 {reads(r.order), reads(r.plan), reads(r.loads), reads(r.planes[std::size_t(g)]), reads(r.sums[std::size_t(g)]),
-                  reads(r.touches[std::size_t(g)]), writes(partial_data_[n])},
-                 r.if_active([this, g, n] { gather(g, &partial_[n * total_.size()]); }));
+                 {reads(r.order), reads(r.plan), reads(r.loads), reads(r.state[std::size_t(g)]), reads(r.planes[std::size_t(g)]),
+                  reads(r.sums[std::size_t(g)]), reads(r.touches[std::size_t(g)]), writes(partial_data_[n])},
+                 r.if_active([this, &sea, g, n, counted](const Context&, int step) {
+                   gather(g, &partial_[n * total_.size()]);
+                   if (counted > 0.0)
+                     sea.energy.add_from_task(energy_of_solids(sea.store, sea.p, g, counted * sea.plan.dt_of(step)));
+                 }));
   }
   const Datum sum = r.graph.datum();
   r.sum("sea/loads/" + when, partial_data_, sum, partial_, total_);

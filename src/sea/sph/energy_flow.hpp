@@ -3,8 +3,8 @@
 // number of threads and ranks. With the energy of the water itself (particle_sea.cpp) they make its balance:
 //   change of kinetic, potential and compression energy = from_solids - dissipated - absorbed + what time steps, shifting,
 //   density filters and lost particles make.
-// Called by tasks.cpp before each group's step; tested in tests/src/sea/sph/energy_flow_test.cpp. SPDX-License-Identifier:
-// Apache-2.0
+// Called by tasks.cpp before each group's step, and for solids by body_tasks.cpp while they are where they were loaded; tested in
+// tests/src/sea/sph/energy_flow_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct ToQuanta {
   std::int64_t count(double sum) const { return std::int64_t(sum / quantum); }
 };
 
-/// What the step of dt [s] that is about to be made does to the water of a group, from the sums that it will use.
+/// What the step of dt [s] that is about to be made does to the water of a group, from the sums that it will use; solids apart.
 template <int dim, class Real>
 EnergyFlow energy_flow(const Store<dim, Real>& store, const Parameters& p, int group, double dt) {
   const Rates<dim> rates(p);
@@ -62,6 +62,19 @@ EnergyFlow energy_flow(const Store<dim, Real>& store, const Parameters& p, int g
       from_solids[lane] += quanta(filled * driven[lane]);
     }
   }
+  double onto = 0.0, from = 0.0;
+  for (int lane = 0; lane < cluster_size; ++lane) onto += onto_water[lane], from += from_solids[lane];
+  return {quanta.count(onto), quanta.count(from), 0};
+}
+
+/// What the solids of a group do to the water in `dt` of a step [s], by the sums as they are and the velocities that the solids
+/// have now: those of the middle of the step for symplectic steps.
+template <int dim, class Real>
+EnergyFlow energy_of_solids(const Store<dim, Real>& store, const Parameters& p, int group, double dt) {
+  const double mass = p.mass(dim);
+  const ToQuanta quanta(energy_quantum(p, dim));
+  double from_solids[cluster_size] = {};
+  const Group& range = store.groups[group];
   for (std::uint32_t cluster = range.solid; cluster < range.end; ++cluster) {
     const std::size_t first = std::size_t(cluster) * cluster_size;
     const std::uint32_t* id = store.id.data() + first;
@@ -78,9 +91,9 @@ EnergyFlow energy_flow(const Store<dim, Real>& store, const Parameters& p, int g
     for (int lane = 0; lane < cluster_size; ++lane)
       from_solids[lane] -= quanta(id[lane] != no_particle ? own_mass * dt * power[lane] : 0.0);
   }
-  double onto = 0.0, from = 0.0;
-  for (int lane = 0; lane < cluster_size; ++lane) onto += onto_water[lane], from += from_solids[lane];
-  return {quanta.count(onto), quanta.count(from), 0};
+  double from = 0.0;
+  for (int lane = 0; lane < cluster_size; ++lane) from += from_solids[lane];
+  return {0, quanta.count(from), 0};
 }
 
 /// Damps the water of a group over a step of dt that ends at t [s], and says what that takes; below zero where waves are made.

@@ -28,9 +28,9 @@ struct NearWater {
 };
 
 /// Highest z where the filled share falls through half of what it is in the water below; nothing where what is near `top`, the
-/// highest particle that counts, is spray.
+/// highest particle that counts, is spray: it fills less than `least`.
 template <int dim>
-std::optional<double> surface_height(std::span<const NearWater> water, double h, double top) {
+std::optional<double> surface_height(std::span<const NearWater> water, double h, double top, double least) {
   const KernelWendland<dim> kernel(h);
   const double step = 0.1 * h;
   const auto filled = [&](double z) {
@@ -45,7 +45,7 @@ std::optional<double> surface_height(std::span<const NearWater> water, double h,
   constexpr int depth = 60, upper = depth - 20;
   std::array<double, depth> share;
   for (int n = 0; n < depth; ++n) share[n] = filled(top + 2.0 * h - n * step);
-  if (*std::max_element(share.begin(), share.begin() + upper) < 0.3) return std::nullopt;
+  if (*std::max_element(share.begin(), share.begin() + upper) < least) return std::nullopt;
   const double most = *std::max_element(share.begin(), share.end());
   for (int n = 1; n < upper; ++n)
     if (share[n] >= 0.5 * most) return top + 2.0 * h - step * (n - (share[n] - 0.5 * most) / (share[n] - share[n - 1]));
@@ -74,7 +74,8 @@ double apart(const Domain<dim>& domain, int axis, double difference) {
 }
 
 /// Heights of the surface at places (x; in 3-D x, y) [m]; `dry` where there is no water. Each place is summed up by one rank.
-/// Where the highest particles are spray the next round looks below them.
+/// Where the highest particles are spray the next round looks below them; where all are, once more for water in a corner of two
+/// walls, which fills a quarter. Two particles of spray fill less.
 template <int dim, class Real>
 std::vector<double> surface_heights(const Store<dim, Real>& store, const Parameters& p, const Domain<dim>& domain,
                                     std::span<const std::array<double, dim - 1>> places, double dry,
@@ -89,7 +90,12 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
     return domain.periodic[0] ? ((cell % cells) + cells) % cells : std::clamp(cell, 0, cells - 1);
   };
   std::vector<std::vector<std::uint32_t>> in_cell(static_cast<std::size_t>(cells));
-  for (std::uint32_t n = 0; n < places.size(); ++n) in_cell[std::size_t(cell_of(places[n][0]))].push_back(n);
+  std::vector<std::uint8_t> wanted(places.size(), 1);
+  const auto want = [&] {
+    for (std::uint32_t n = 0; n < places.size(); ++n)
+      if (wanted[n]) in_cell[std::size_t(cell_of(places[n][0]))].push_back(n);
+  };
+  want();
   const auto for_near = [&](std::size_t slot, auto&& visit) {
     const int home = cell_of(store.x[0][slot]);
     for (int step = -1; step <= 1; ++step) {
@@ -111,7 +117,11 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
     NearWater water;
   };
   std::vector<double> heights(places.size(), dry), below(places.size(), 1e300), top(places.size());
-  while (std::ranges::any_of(in_cell, [](const auto& cell) { return !cell.empty(); })) {
+  double least = 0.3;
+  const auto left = [&] { return std::ranges::any_of(in_cell, [](const auto& cell) { return !cell.empty(); }); };
+  while (true) {
+    if (!left() && dim == 3 && least == 0.3) least = 0.22, want(), std::ranges::fill(below, 1e300);
+    if (!left()) break;
     std::ranges::fill(top, none);
     for_water_particles(store, [&](std::size_t slot) {
       const double z = store.x[dim - 1][slot];
@@ -155,7 +165,7 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
       // The order of terms must not depend on where particles lie in memory.
       std::sort(water[n].begin(), water[n].end(),
                 [](const NearWater& a, const NearWater& b) { return a.z != b.z ? a.z < b.z : a.distance2 < b.distance2; });
-      read[n] = surface_height<dim>(water[n], p.h(), top[n]).value_or(none);
+      read[n] = surface_height<dim>(water[n], p.h(), top[n], least).value_or(none);
     }
     if (ranks > 1) {
       runtime::Packer mine;
@@ -169,7 +179,7 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
     }
     for (auto& cell : in_cell)
       std::erase_if(cell, [&](std::uint32_t n) {
-        if (read[n] != none) heights[n] = read[n];
+        if (read[n] != none) heights[n] = read[n], wanted[n] = 0;
         below[n] = top[n] - p.h();  // a surface within 2 h of the top would have been found
         return read[n] != none || top[n] == none;
       });
@@ -192,7 +202,7 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
                         const std::array<double, dim>& at, MPI_Comm comm = MPI_COMM_SELF) {
   struct Term {
     std::uint32_t id;
-    double weight, pressure;
+    double weight, pressure, over;  ///< of the water above the probe's height [Pa]
     std::array<double, dim> velocity;
   };
   const KernelWendland<dim> kernel(p.h());
@@ -207,7 +217,8 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
     const double rho = p.eos.rho0 + store.deviation[slot];
     Term term{store.id[slot],
               p.mass(dim) / rho * kernel.value(distance2),
-              p.eos.pressure(store.deviation[slot]) + rho * p.gravity * (store.x[dim - 1][slot] - at[dim - 1]),
+              p.eos.pressure(store.deviation[slot]),
+              rho * p.gravity * (store.x[dim - 1][slot] - at[dim - 1]),
               {}};
     for (int k = 0; k < dim; ++k) term.velocity[k] = store.v[k][slot];
     terms.push_back(term);
@@ -222,9 +233,9 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.id < b.id; });
   ProbeReading<dim> reading;
   reading.velocity.fill(0.0);
-  double weight = 0.0;
+  double weight = 0.0, pressure = 0.0, over = 0.0;
   for (const Term& t : terms) {
-    weight += t.weight, reading.pressure += t.weight * t.pressure;
+    weight += t.weight, pressure += t.weight * t.pressure, over += t.weight * t.over;
     for (int k = 0; k < dim; ++k) reading.velocity[k] += t.weight * t.velocity[k];
   }
   if (weight < least_water) {
@@ -232,7 +243,7 @@ ProbeReading<dim> probe(const Store<dim, Real>& store, const Parameters& p, cons
     reading.velocity.fill(std::numeric_limits<double>::quiet_NaN());
     return reading;
   }
-  reading.pressure /= weight;
+  reading.pressure = std::max(pressure + over, std::min(pressure, 0.0)) / weight;  // as sensors: weight alone makes no tension
   for (double& v : reading.velocity) v /= weight;
   return reading;
 }

@@ -77,19 +77,27 @@ std::array<double, 2> over_sinh(double k, double z, double depth) {
 }
 
 /// Where a particle of water at rest is in the motion of the waves at their t = 0, and its velocity: displacements of linear
-/// theory, (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order.
+/// theory, (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order; velocities of the place where it
+/// then is, so that a fixed point has no mean current.
 template <int dim>
 void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth) {
-  Eigen::Vector3d x = to_earth<dim>(seed.position), v = Eigen::Vector3d::Zero(), way = Eigen::Vector3d::Zero();
-  for (const waves::Component& c : waves) {
-    const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
-    const double psi = c.wave_number * along.dot(x) + c.phase;
-    const auto [horizontal, vertical] = over_sinh(c.wave_number, x[2], depth);
-    const double displacement = c.speed_amplitude / c.angular_frequency;
-    way += displacement * (-horizontal * std::sin(psi) * along + vertical * std::cos(psi) * Eigen::Vector3d::UnitZ());
-    v += c.speed_amplitude * (horizontal * std::cos(psi) * along + vertical * std::sin(psi) * Eigen::Vector3d::UnitZ());
-  }
-  seed.position = from_earth<dim>(x + way), seed.velocity = from_earth<dim>(v);
+  const Eigen::Vector3d x = to_earth<dim>(seed.position);
+  Eigen::Vector3d v = Eigen::Vector3d::Zero(), now = x;
+  const auto sum = [&](const Eigen::Vector3d& at, auto&& add) {
+    for (const waves::Component& c : waves) {
+      const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
+      const double psi = c.wave_number * along.dot(at) + c.phase;
+      const auto [horizontal, vertical] = over_sinh(c.wave_number, at[2], depth);
+      add(c, Eigen::Vector3d(horizontal * along), Eigen::Vector3d(vertical * Eigen::Vector3d::UnitZ()), psi);
+    }
+  };
+  sum(x, [&](const waves::Component& c, const Eigen::Vector3d& along, const Eigen::Vector3d& up, double psi) {
+    now += c.speed_amplitude / c.angular_frequency * (-std::sin(psi) * along + std::cos(psi) * up);
+  });
+  sum(now, [&](const waves::Component& c, const Eigen::Vector3d& along, const Eigen::Vector3d& up, double psi) {
+    v += c.speed_amplitude * (std::cos(psi) * along + std::sin(psi) * up);
+  });
+  seed.position = from_earth<dim>(now), seed.velocity = from_earth<dim>(v);
 }
 
 /// Lays out a tank. What needs neighbours (water that bodies displace or move aside) is found once and kept; all else is made
@@ -226,8 +234,13 @@ class Layout {
   }
 
   void make_pieces() {
-    for (std::size_t n = 0; n < std::max<std::size_t>(1, plan_.water.size()); ++n)
-      add_pieces({.of = Piece::Of::water, .number = n, .high = lattice_.count}, farthest_off_lattice());
+    Piece water{.of = Piece::Of::water, .high = lattice_.count};
+    for (int k = 0; k < dim - 1; ++k) {  // what waves bring in from beyond the ends, where as much goes out
+      const int more = plan_.waves.empty() || plan_.periodic[k] ? 0 : int(std::ceil(farthest_off_lattice() / lattice_.edge[k]));
+      const bool moves_or_mirrors = k == 0 ? plan_.paddle.has_value() : plan_.mirrored;
+      water.low[k] -= moves_or_mirrors ? 0 : more, water.high[k] += more;
+    }
+    for (; water.number < std::max<std::size_t>(1, plan_.water.size()); ++water.number) add_pieces(water, farthest_off_lattice());
     add_pieces({.of = Piece::Of::walls, .low = walls_.low, .high = walls_.high, .owner = wall_owner}, 0.0);
     std::uint16_t owner = wall_owner + 1;
     if (plan_.paddle) pieces_.push_back({.of = Piece::Of::paddle, .owner = owner++});
@@ -394,8 +407,9 @@ class Layout {
         seed.deviation = p_.eos.hydrostatic_deviation(below, p_.gravity);
       }
       if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth);
-      const bool in_tank =
-          plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
+      bool in_tank = plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
+      if constexpr (dim == 3)
+        in_tank = in_tank && (plan_.periodic[1] || (seed.position[1] > plan_.y[0] && seed.position[1] < plan_.y[1]));
       if (!in_tank) return;
       if constexpr (with_air) {
         const double distance = distance_to_bodies(to_earth<dim>(seed.position));

@@ -348,10 +348,12 @@ void StepTasks<dim, Real>::correct() {
       const double dt = sea.plan.dt_of(n);
       for (const int g : groups) {
         sea.energy.add_from_task(energy_flow(sea.store, sea.p, g, dt));
-        if (sea.p.step == StepChoice::verlet)
+        if (sea.p.step == StepChoice::verlet) {
+          sea.energy.add_from_task(energy_of_solids(sea.store, sea.p, g, 0.5 * dt));
           correct_verlet(sea.store, sea.p, g, dt, join);
-        else
+        } else {
           correct_symplectic(sea.store, sea.p, g, dt);
+        }
         if (!sea.damping.acts()) continue;
         const double end = sea.plan.time + n * sea.plan.dt + dt;
         sea.energy.add_from_task(damp(sea.store, sea.p, sea.damping, end, dt, g));

@@ -41,9 +41,9 @@ struct Water {
     });
     fill<dim, float>(store, seeds, Columns<dim>(domain, 2.0 * p.reach(), 2.0 * p.reach()), p.anchor_step());
   }
-  double height(double x) const {
+  double height(double x, double y = 1.0) const {
     std::array<double, dim - 1> place;
-    place.fill(1.0), place[0] = x;
+    place.fill(y), place[0] = x;
     return surface_heights<dim>(store, p, domain, std::span(&place, 1), -9.0)[0];
   }
 };
@@ -56,6 +56,7 @@ TEST_CASE("a gauge reads a level surface within a twentieth of a spacing, in 2-D
   for (double x : {0.02, 0.4, 1.0, 1.013}) CHECK(plane.height(x) == Approx(1.0).margin(0.0025));
   const Water<3> space(0.1, 0.0);
   for (double x : {0.7, 1.0, 1.03}) CHECK(space.height(x) == Approx(1.0).margin(0.005));
+  for (double y : {0.0, 0.02, 0.1}) CHECK(space.height(0.0, y) == Approx(1.0).margin(0.005));  // in a corner
 }
 
 TEST_CASE("a gauge reads a slope of lattice stairs within half a spacing and nothing where there is no water",
@@ -118,6 +119,8 @@ TEST_CASE("a probe reads hydrostatic pressure within 1 % of the depth's, also at
     CHECK(reading.velocity[0] == Approx(0.7));
     CHECK(reading.velocity[1] == Approx(-0.2));
   }
+  for (const double over : {0.01, 0.03, 0.05})
+    CHECK(probe<2>(water.store, water.p, water.domain, {1.0, 1.0 + over}).pressure == 0.0);  // of weight alone
   const auto dry = probe<2>(water.store, water.p, water.domain, {1.0, 1.8});
   CHECK(dry.pressure == 0.0);
   CHECK(std::isnan(dry.velocity[0]));

@@ -389,9 +389,22 @@ TEST_CASE("water that starts in a wave follows its surface and its velocity", "[
     if (std::abs(s.position[0] - 10.0) < 0.1 || s.position[0] < 0.1) crest = std::max(crest, s.position[1]);
     if (std::abs(s.position[0] - 5.0) < 0.1) trough_top = std::max(trough_top, s.position[1]);
     fastest = std::max(fastest, s.velocity[0]);
+    const double depth_here = k * (s.position[1] + 2.0), psi = k * s.position[0];  // of where it is, not of where it was at rest
+    CHECK(s.velocity[0] == Approx(a * omega * std::cosh(depth_here) / std::sinh(k * 2.0) * std::cos(psi)).margin(1e-12));
+    CHECK(s.velocity[1] == Approx(a * omega * std::sinh(depth_here) / std::sinh(k * 2.0) * std::sin(psi)).margin(1e-12));
   });
   CHECK(crest - trough_top == Approx(2.0 * a).epsilon(0.05));
-  CHECK(fastest == Approx(a * omega / std::tanh(k * 2.0)).epsilon(0.05));
+  CHECK(fastest == Approx(a * omega * std::cosh(k * (2.0 + a)) / std::sinh(k * 2.0)).epsilon(0.05));
+}
+
+TEST_CASE("between walls a wave brings in as much water as it takes out, whatever its phase", "[sea][sph][fast]") {
+  const double phase = GENERATE(0.0, 0.5 * pi, pi, 4.0);
+  TankPlan plan = tank(10.0, 0.0, 2.0);
+  Parameters p = particles(0.1, 2.0);
+  const auto still = lay_out<2>(plan, p).water;
+  const double k = 2.0 * pi / 10.0, omega = std::sqrt(9.81 * k * std::tanh(k * 2.0)), a = 0.3;
+  plan.waves = {{.wave_number = k, .angular_frequency = omega, .amplitude = a, .speed_amplitude = a * omega, .phase = phase}};
+  CHECK(double(lay_out<2>(plan, p).water) == Approx(double(still)).epsilon(0.003));
 }
 
 TEST_CASE("ghost nodes of modified walls lie in the water, as far from the face as their particle", "[sea][sph][fast]") {
