@@ -262,8 +262,8 @@ void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearis
     else
       fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", names[n], mode.eigenvalue.real(),
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
-  if (const Eigen::Index all = linearisation.matrix.rows() / 2; linearisation.free > 0)
-    fmt::print("  {} of {} freedoms without stiffness\n", linearisation.free, all);
+  if (const Eigen::Index free = linearisation.freedoms_without_stiffness(); free > 0)
+    fmt::print("  {} of {} freedoms without stiffness\n", free, linearisation.matrix.rows() / 2);
   if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
     fmt::print(
         "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");

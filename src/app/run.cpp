@@ -349,9 +349,10 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   begun.title = title, begun.scene = arguments.scene, begun.overrides = arguments.overrides;
   begun.ranks = world.size, begun.threads = threads;
   const auto says_begun = [&] { write_summary_of_start(directory.summary(), begun); };
+  // Until a restart has begun the summary of the run before stands; one beside a new run is of a rank that ends it already.
   if (world.rank == 0 && directory.resumes())
-    settings.began = says_begun;                                              // until then the summary of the run before stands
-  else if (world.rank == 0 && !std::filesystem::exists(directory.summary()))  // of a rank that ends the run already
+    settings.began = says_begun;
+  else if (world.rank == 0 && !std::filesystem::exists(directory.summary()))
     says_begun();
   const runtime::Heartbeat::LastWords last_words(summary_by_force(directory, world, begun));
   const auto complete = [&](io::Summary& summary) {

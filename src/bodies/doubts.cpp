@@ -175,9 +175,11 @@ scene::Doubts overlap_doubts(const NamedBodies& bodies, std::string_view but_for
     double largest = 0.0;
     int pairs = 0;
     std::string what;
-    for (std::size_t n = 0; n < body.cylinders.size(); ++n)
+    std::vector<Cylinder> made;
+    for (const CylinderOptions& cylinder : body.cylinders) made.push_back(make_cylinder(cylinder, body));
+    for (std::size_t n = 0; n < made.size(); ++n)
       for (std::size_t m = 0; m < n; ++m) {
-        const Cylinder one = make_cylinder(body.cylinders[m], body), two = make_cylinder(body.cylinders[n], body);
+        const Cylinder &one = made[m], &two = made[n];
         if (!may_meet(one, two)) continue;
         const bool first = one.volume() < two.volume();
         const Cylinder &less = first ? one : two, &more = first ? two : one;

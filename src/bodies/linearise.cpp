@@ -93,9 +93,6 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   system.open_chart(state, t_s);  // direction names need the tangent at the state
   const dense::Eigenpairs eigen = dense::eigenpairs(result.matrix);
   const double largest = eigen.values.cwiseAbs().maxCoeff();
-  const Eigen::VectorXd stiffness = dense::singular_values(result.matrix.bottomLeftCorner(n, n)).values;
-  const double none = free_fraction * free_fraction * std::max(largest * largest, stiffness.maxCoeff());
-  result.free = (stiffness.array() <= none).count();
   for (Eigen::Index k = 0; k < 2 * n; ++k) {
     std::complex<double> lambda = eigen.values[k];
     if (lambda.imag() < 0.0) continue;
@@ -109,6 +106,14 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   std::stable_sort(result.modes.begin(), result.modes.end(),
                    [](const Mode& a, const Mode& b) { return std::abs(a.eigenvalue) > std::abs(b.eigenvalue); });
   return result;
+}
+
+Eigen::Index Linearisation::freedoms_without_stiffness() const {
+  const Eigen::Index n = matrix.rows() / 2;
+  if (modes.empty()) return 0;
+  const Eigen::VectorXd stiffness = dense::singular_values(matrix.bottomLeftCorner(n, n)).values;
+  const double none = free_fraction * free_fraction * std::max(std::norm(modes.front().eigenvalue), stiffness.maxCoeff());
+  return (stiffness.array() <= none).count();
 }
 
 StepLimit step_limit(Integrator integrator, const Linearisation& linearisation) {

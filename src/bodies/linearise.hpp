@@ -23,10 +23,10 @@ struct Mode {
 };
 
 struct Linearisation {
-  Eigen::MatrixXd matrix;   ///< A, 2n x 2n: chart positions, then velocities
-  std::vector<Mode> modes;  ///< fastest first; free directions have eigenvalue 0
-  Eigen::Index free = 0;    ///< freedoms without stiffness, n less the rank of A's stiffness
-  StepReport report;        ///< not ok(): the state could not be evaluated, no modes
+  Eigen::MatrixXd matrix;                           ///< A, 2n x 2n: chart positions, then velocities
+  std::vector<Mode> modes;                          ///< fastest first; free directions have eigenvalue 0
+  StepReport report;                                ///< not ok(): the state could not be evaluated, no modes
+  Eigen::Index freedoms_without_stiffness() const;  ///< n less the rank of A's stiffness
 };
 
 Linearisation linearise(System& system, const BodiesState& state, double t_s);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "src/coupling/timeline.hpp"
 #include "src/scene/section.hpp"
@@ -19,7 +18,7 @@ void check_time(const TimeOptions& o, const scene::Report& report) {
                                  nearest_divisor(o.window_s, o.step())));
   if (!whole_ratio(o.end_s, o.window_s))
     report("end_s", fmt::format("must be a whole number of windows of {} s (nearest: {:.12g} s)", o.window_s,
-                                std::max(1.0, std::round(o.end_s / o.window_s)) * o.window_s));
+                                std::max(o.window_s, nearest_multiple(o.end_s, o.window_s))));
 }
 
 }  // namespace

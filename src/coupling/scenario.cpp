@@ -98,9 +98,8 @@ void check_particles(scene::Document& document, const Scenario& s) {
     for (const auto& body : s.bodies)
       if (body.name == column) document.problem("bodies." + column, "is the name of a gauge, probe or sensor too");
   if (s.sea.settle_s() > 0.0 && !whole_ratio(s.sea.settle_s(), s.time.window_s))
-    document.problem("sea.initial.settle_s",
-                     fmt::format("must be a whole number of windows of {} s (nearest: {:.12g} s)", s.time.window_s,
-                                 std::round(s.sea.settle_s() / s.time.window_s) * s.time.window_s));
+    document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s (nearest: {:.12g} s)",
+                                                         s.time.window_s, nearest_multiple(s.sea.settle_s(), s.time.window_s)));
 }
 
 /// Height of the hub above still water as the scene describes it [m].

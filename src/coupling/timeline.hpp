@@ -20,6 +20,9 @@ inline std::optional<std::int64_t> whole_ratio(double whole, double part) {
 /// The part nearest to `part` that divides `whole` a whole number of times.
 inline double nearest_divisor(double whole, double part) { return whole / std::max(1.0, std::round(whole / part)); }
 
+/// The whole number of times `part` that is nearest to `whole`.
+inline double nearest_multiple(double whole, double part) { return std::round(whole / part) * part; }
+
 /// Windows of equal length, each of the same number of steps (ticks).
 class Timeline {
  public:

@@ -151,6 +151,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const TankOptions& t = *o.tank;
   const bool planar = p.planar(), waved = waves.model != "none";
   const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
+  const sph::TankPlan ground{.depth = depth, .bed = t.bed_m};
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
   if (planar && t.y_m != std::array<double, 2>{})
@@ -228,7 +229,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
-    const double bed = sph::TankPlan{.depth = depth, .bed = t.bed_m}.bed_at(t.x_m[0]);
+    const double bed = ground.bed_at(t.x_m[0]);
     if (!(bed < 0.0))
       wrong("sea.tank.bed_m",
             fmt::format("must be below still water at the paddle of [sea.wavemaker], where it is at {:.4g} m", bed));
@@ -266,7 +267,7 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     const Eigen::Vector3d& x = o.probes[n].point_m;
     if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1])))
       wrong(key + ".point_m", "is outside the tank");
-    else if (const double bed = sph::TankPlan{.depth = depth, .bed = t.bed_m}.bed_at(x[0]); x[2] < bed - 1e-9 * depth)
+    else if (const double bed = ground.bed_at(x[0]); x[2] < bed - 1e-9 * depth)
       wrong(key + ".point_m", fmt::format("is below the bed, which is at {:.6g} m there", bed));
   }
   const auto shaped = [&](const std::string& key, const std::string& body) {
@@ -375,10 +376,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
         const std::array<double, 2>& sides = axis == 0 ? t.x_m : t.y_m;
         const std::string& kind = axis == 0 ? t.sides_x : t.sides_y;
         if ((kind == "periodic" || kind == "open") && (low[axis] < sides[0] || high[axis] > sides[1]))
-          wrong(key, fmt::format("reaches {0} = {1:.4g} m, over a side of the tank that {3} (sea.tank.sides_{0}): water goes "
-                                 "{4} there, bodies do not{2}",
-                                 "xy"[axis], low[axis] < sides[0] ? low[axis] : high[axis], size,
-                                 kind == "open" ? "is open" : "repeats", kind == "open" ? "out" : "round"));
+          wrong(key, fmt::format("reaches {} = {:.4g} m, over a side of the tank {}{}", "xy"[axis],
+                                 low[axis] < sides[0] ? low[axis] : high[axis], side_without_wall(kind == "open", axis), size));
       }
       for (std::size_t n = 0; n < t.meshes.size(); ++n) {
         const scene::MeshOptions& m = t.meshes[n];

@@ -32,6 +32,12 @@
 
 namespace spindrift::sea {
 
+/// Of a side that repeats or is open, across x (0) or y (1), for messages about bodies that come over it.
+inline std::string side_without_wall(bool open, int axis) {
+  return std::string("that ") + (open ? "is open" : "repeats") + " (sea.tank.sides_" + "xy"[axis] + "): water goes " +
+         (open ? "out" : "round") + " there, bodies do not";
+}
+
 /// A body that meets the particles, shapes in body axes from the centre of mass. Bodies without shapes do not.
 struct ParticleBody {
   std::string name;

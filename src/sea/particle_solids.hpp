@@ -93,10 +93,8 @@ class ParticleSolids {
         const double limit = below ? domain.low[k] : domain.high[k];
         const std::string axis(1, "xy"[k]), name = names_[std::size_t(body)];
         throw NumericalFailure("t = " + in_words(t_s) + " s: body " + name + " reaches " + axis + " = " +
-                                   in_words(below ? low[k] : high[k]) + " m, over the side at " + in_words(limit) + " m that " +
-                                   (domain.open[k] ? "is open" : "repeats") + " (sea.tank.sides_" + axis + "): water goes " +
-                                   (domain.open[k] ? "out" : "round") +
-                                   " there, bodies do not; set the sides farther off, or moor it",
+                                   in_words(below ? low[k] : high[k]) + " m, over the side at " + in_words(limit) + " m " +
+                                   side_without_wall(domain.open[k], k) + "; set the sides farther off, or moor it",
                                "bodies." + name, long(sea_.state().work.steps), t_s, limit);
       }
     }

@@ -55,6 +55,11 @@ class Study(Folder):
         """By run: what it came to and when that was written."""
         return {str(p.parent.relative_to(self.out)): (json.loads(p.read_text()), p.stat().st_mtime_ns) for p in self.out.rglob("study_run.json")}
 
+    def values(self, text, metric):
+        done = self.study(text)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return [rung["errors"][metric]["value"] for rung in self.result()["rungs"]]
+
     def result(self):
         return json.loads((self.out / "study.json").read_text())
 
@@ -93,14 +98,9 @@ values = [0.02]
 column = "buoy.x_m"
 measure = "last"
 """
-        def surge():
-            done = self.study(text)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            return [rung["errors"]["surge"]["value"] for rung in self.result()["rungs"]]
-
-        before = surge()
+        before = self.values(text, "surge")
         (self.path / "thrust.csv").write_text("time_s,thrust_N\n0,200\n10,200\n")
-        for one, other in zip(before, surge()):
+        for one, other in zip(before, self.values(text, "surge")):
             self.assertAlmostEqual(other / one, 2.0, delta=0.05)
 
     def test_a_run_is_repeated_where_the_state_that_it_starts_from_changed(self):
@@ -122,9 +122,7 @@ measure = "last"
                                    f"bodies.buoy.displacement_m=[0.0,0.0,{high}]"], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
             (self.path / "start.h5").write_bytes(max((other / "checkpoints").glob("*.h5")).read_bytes())
-            done = self.study(text)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            found.append([rung["errors"]["heave"]["value"] for rung in self.result()["rungs"]])
+            found.append(self.values(text, "heave"))
         self.assertNotEqual(*found)
 
     def test_a_dry_run_runs_nothing(self):

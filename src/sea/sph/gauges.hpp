@@ -91,11 +91,6 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
   };
   std::vector<std::vector<std::uint32_t>> in_cell(static_cast<std::size_t>(cells));
   std::vector<std::uint8_t> wanted(places.size(), 1);
-  const auto want = [&] {
-    for (std::uint32_t n = 0; n < places.size(); ++n)
-      if (wanted[n]) in_cell[std::size_t(cell_of(places[n][0]))].push_back(n);
-  };
-  want();
   const auto for_near = [&](std::size_t slot, auto&& visit) {
     const int home = cell_of(store.x[0][slot]);
     for (int step = -1; step <= 1; ++step) {
@@ -116,12 +111,8 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
     std::uint32_t place;
     NearWater water;
   };
-  std::vector<double> heights(places.size(), dry), below(places.size(), 1e300), top(places.size());
-  double least = 0.3;
-  const auto left = [&] { return std::ranges::any_of(in_cell, [](const auto& cell) { return !cell.empty(); }); };
-  while (true) {
-    if (!left() && dim == 3 && least == 0.3) least = 0.22, want(), std::ranges::fill(below, 1e300);
-    if (!left()) break;
+  std::vector<double> heights(places.size(), dry), below(places.size()), top(places.size());
+  const auto look = [&](double least) {
     std::ranges::fill(top, none);
     for_water_particles(store, [&](std::size_t slot) {
       const double z = store.x[dim - 1][slot];
@@ -183,6 +174,12 @@ std::vector<double> surface_heights(const Store<dim, Real>& store, const Paramet
         below[n] = top[n] - p.h();  // a surface within 2 h of the top would have been found
         return read[n] != none || top[n] == none;
       });
+  };
+  for (const double least : dim == 3 ? std::vector{0.3, 0.22} : std::vector{0.3}) {
+    for (std::uint32_t n = 0; n < places.size(); ++n)
+      if (wanted[n]) in_cell[std::size_t(cell_of(places[n][0]))].push_back(n);
+    std::ranges::fill(below, 1e300);
+    while (std::ranges::any_of(in_cell, [](const auto& cell) { return !cell.empty(); })) look(least);
   }
   return heights;
 }

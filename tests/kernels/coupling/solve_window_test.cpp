@@ -66,6 +66,23 @@ TEST_CASE("the log names the tolerance that was met", "[coupling][fast]") {
   CHECK(absolute.residual <= 1e-3);
 }
 
+TEST_CASE("what is returned is as large as the window says, where it says so", "[coupling][fast]") {
+  struct Turning {  // a load of 1 that converges, beside an angle of a thousand turns that is right from the start
+    Vector evaluate(const Vector& x) { return Eigen::Vector2d(1.0 - 0.5 * x[0], 6283.0); }
+    Vector guess() const { return Eigen::Vector2d(0.6, 6283.0); }
+    void accept() { ended = true; }
+    bool done() const { return ended; }
+    bool halve() { return false; }
+    double size_of(const Vector& output) const { return std::abs(output[0]); }
+    bool ended = false;
+  } window;
+  RelaxationConstant fixed_point(1.0);
+  const WindowLog log = solve_window(window, fixed_point, {.relative = 0.0, .of_output = 1e-3});
+  CHECK(log.ok());
+  CHECK(log.residual <= 1e-3);
+  CHECK(log.evaluations > 3);
+}
+
 TEST_CASE("clearing and relaxing rescues a scheme that learned from a part in trouble", "[coupling][fast]") {
   struct Troubled : LinearWindow {
     using LinearWindow::LinearWindow;

@@ -40,7 +40,7 @@ TEST_CASE("frequencies and damping of a body on springs, added mass included", "
   System system = on_springs(Integrator::rk4, 1000.0, 8.0, 30.0);
   const Linearisation l = linearise(system, start(system), 0.0);
   REQUIRE(l.modes.size() == 6);
-  CHECK(l.free == 0);
+  CHECK(l.freedoms_without_stiffness() == 0);
   const Mode& surge = mode_named(l, "surge of buoy");
   CHECK(std::abs(surge.eigenvalue) == Approx(10.0).epsilon(1e-7));
   CHECK(surge.damping_ratio() == Approx(0.04).epsilon(1e-6));
@@ -57,7 +57,7 @@ TEST_CASE("freedoms without stiffness are counted once, damped or not", "[bodies
                   },
                   {}}},
                 Integrator::rk4);
-  CHECK(linearise(system, start(system), 0.0).free == 5);
+  CHECK(linearise(system, start(system), 0.0).freedoms_without_stiffness() == 5);
 }
 
 TEST_CASE("the limit of the scene holds: 0.95 of it is stable, 1.05 is not", "[bodies][fast]") {
