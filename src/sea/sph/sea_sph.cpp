@@ -78,6 +78,7 @@ template <int dim, class Real>
 double SeaSph<dim, Real>::begin_step(double dt_max) {
   s_.plan.start_steps(std::min(step_limit(), dt_max), 1);
   s_.plan.shifted = 0.0;
+  if (s_.p.step == StepChoice::verlet) count_work_of_solids(0.5);
   return s_.plan.dt;
 }
 
@@ -86,6 +87,13 @@ void SeaSph<dim, Real>::half_step() {
   if (s_.p.step == StepChoice::verlet) return;
   recorded_.middle();
   contacts_ = all_contacts(s_, comm_.get());
+  count_work_of_solids(1.0);
+}
+
+/// As the tasks of bodies do in windows, for a share of the step.
+template <int dim, class Real>
+void SeaSph<dim, Real>::count_work_of_solids(double share) {
+  for (const int g : s_.subdomain.own) s_.energy = sum(s_.energy, energy_of_solids(s_.store, s_.p, g, share * s_.plan.dt));
 }
 
 template <int dim, class Real>

@@ -84,6 +84,7 @@ class SeaSph {
 
  private:
   void set_ranks(std::vector<int> rank_of_group);
+  void count_work_of_solids(double share);
 
   runtime::Communicator comm_;
   double repartition_above_;
