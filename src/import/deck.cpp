@@ -50,6 +50,8 @@ std::vector<std::string> split(const std::string& text) {
   return words;
 }
 
+}  // namespace
+
 std::optional<double> number_in(std::string word) {
   std::replace(word.begin(), word.end(), 'D', 'E');
   std::replace(word.begin(), word.end(), 'd', 'e');
@@ -60,8 +62,6 @@ std::optional<double> number_in(std::string word) {
   } catch (const std::exception&) {}
   return std::nullopt;
 }
-
-}  // namespace
 
 Deck::Deck(const std::filesystem::path& file, char comment) : file_(file) {
   std::ifstream in(file);

@@ -22,6 +22,9 @@ inline Range positive(const char* name) { return {name, 0.0, std::numeric_limits
 inline Range not_negative(const char* name) { return {name, 0.0, std::numeric_limits<double>::infinity()}; }
 inline Range angle(const char* name) { return {name, -360.0, 360.0}; }  ///< [deg]
 
+/// Nothing where the word is no number.
+std::optional<double> number_in(std::string word);
+
 class Deck {
  public:
   /// Throws scene::SceneError where the file cannot be read. Lines that begin with `comment` are left out.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/base/constants.hpp"
 #include "src/import/openfast_sections.hpp"
 
 namespace spindrift::decks {
@@ -59,22 +60,37 @@ std::string mann_box(DeckImport& run, const Deck& w, double hub_height) {
       w.integer({"nz"}, 0), w.number({"dx"}), w.number({"dy"}), w.number({"dz"}));
 }
 
-/// Uniform wind in time: time, speed, direction, vertical speed, shears, gust.
+/// Columns of a uniform wind file: InflowWind reads nine where the first row has them, otherwise the eight without upflow.
+std::size_t columns_of(const Deck& file) {
+  for (std::size_t n = 0; n < file.size(); ++n) {
+    const std::vector<std::string>& row = file.words(n);
+    if (!row.empty()) return row.size() > 8 && number_in(row[8]) ? 9 : 8;
+  }
+  return 8;
+}
+
+/// Uniform wind in time: time, speed, direction, vertical speed, shears, gust and, if any, the angle by which all is turned
+/// upwards.
 std::string uniform_wind(DeckImport& run, const Deck& w, double hub_height) {
   const double all_turned = w.number({"PropagationDir"}, 0.0);
   const Deck file(w.path({"FileName_Uni", "Filename"}), '!');
   std::ofstream out(run.folder / "wind.csv");
   out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
   double shear = 0.0, before = -std::numeric_limits<double>::infinity();
-  bool sheared = false, changes = false, gusts = false;
+  bool sheared = false, changes = false, gusts = false, rises = false;
+  const std::size_t columns = columns_of(file);
   std::vector<std::array<double, 4>> rows;
   for (std::size_t n = 0; n < file.size(); ++n) {
     if (file.words(n).empty()) continue;
-    const std::vector<double> row = file.numbers(n, 8);
+    const std::vector<double> row = file.numbers(n, columns);
     if (row[1] < 0.0) file.fail(n, fmt::format("has a wind of {:g} m/s: the second column is a speed, not negative", row[1]));
     if (row[0] <= before) file.fail(n, fmt::format("has a time of {:g} s, not later than the row before", row[0]));
     before = row[0];
-    rows.push_back({row[0], row[1] + row[7], -row[2] - all_turned, row[3]});
+    const double upflow = columns > 8 ? row[8] * radians_per_degree : 0.0, speed = row[1] + row[7];
+    const double level = std::cos(upflow) * speed - std::sin(upflow) * row[3];
+    if (level < 0.0) file.fail(n, fmt::format("has an upflow of {:g} degrees, which turns the wind round", row[8]));
+    rows.push_back({row[0], level, -row[2] - all_turned, std::sin(upflow) * speed + std::cos(upflow) * row[3]});
+    rises = rises || (upflow != 0.0 && row[5] != 0.0);
     gusts = gusts || (row[7] != 0.0 && row[5] != 0.0);
     if (n > 0 && row[5] != shear) changes = true;
     shear = row[5];
@@ -85,6 +101,8 @@ std::string uniform_wind(DeckImport& run, const Deck& w, double hub_height) {
     out << fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", time, speed, direction, upwards);
   if (gusts)
     run.leave_out("the gust column of the uniform wind file is the same at all heights there: here the power law shears it");
+  if (rises)
+    run.leave_out("shear of what the upflow angle of the uniform wind file turns upwards: it is the same at all heights");
   if (sheared) run.leave_out("horizontal and linear vertical shear of the uniform wind file");
   if (changes) run.leave_out("changes of the power law's exponent in the uniform wind file: the last is used");
   run.carry("wind: " + file.file().filename().string());
@@ -127,7 +145,7 @@ std::string import_wind(DeckImport& run, const Deck& w, double hub_height) {
     const std::size_t at = text.find("[wind]\n") + 7;
     text.insert(at, fmt::format("direction_deg = {:.9g}\n", -to));
   }
-  if (w.number({"VFlowAng"}, 0.0) != 0.0) run.leave_out("VFlowAng: the wind is level");
+  if (w.number({"VFlowAng"}, 0.0) != 0.0) run.leave_out("VFlowAng: it turns no wind upwards");
   return text;
 }
 

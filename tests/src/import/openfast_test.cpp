@@ -472,6 +472,23 @@ TEST_CASE("uniform wind of a deck blows where file and PropagationDir say, and s
   CHECK_FALSE(has_word(deck.import().left_out, "gust column"));
 }
 
+TEST_CASE("the upflow angle of a deck's uniform wind turns speed, gust and vertical speed upwards", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ifw.dat", "1 WindType", "2 WindType\n\"uniform.wnd\" FileName_Uni");
+  deck.files["uniform.wnd"] = "! time speed direction vertical shears gust upflow\n0 9 0 2 0 0 0 1 8\n100 9 0 2 0 0 0 1 8 x\n";
+  const auto blows = [&] { return aero::wind_of(deck.scenario().wind, {{0, 0, 62}, 80.0}).at(50.0, {0, 0, 62}); };
+  const double angle = 8.0 * radians_per_degree, c = std::cos(angle), s = std::sin(angle);
+  CHECK((blows() - Eigen::Vector3d(10.0 * c - 2.0 * s, 0.0, 10.0 * s + 2.0 * c)).norm() < 1e-8);
+  CHECK_FALSE(has_word(deck.import().left_out, "upflow"));
+  deck.replace("uniform.wnd", "0 9 0 2 0 0 0 1 8", "0 9 0 2 0 0.2 0 1 8");
+  CHECK(has_word(deck.import().left_out, "upflow"));
+  // A first row without the angle: the file has none, whatever follows.
+  deck.files["uniform.wnd"] = "0 9 0 2 0 0 0 1\n100 9 0 2 0 0 0 1 8\n";
+  CHECK((blows() - Eigen::Vector3d(10.0, 0.0, 2.0)).norm() < 1e-8);
+  deck.files["uniform.wnd"] = "0 9 0 0 0 0 0 0 100\n";
+  CHECK(deck.refusal().find("uniform.wnd:1") != std::string::npos);
+}
+
 TEST_CASE("the mean wind of a deck's Mann box is the scene's", "[import][fast]") {
   SmallDeck deck;
   const double hub = 62.0 - 4.0 * std::sin(-6.0 * radians_per_degree);
