@@ -14,7 +14,6 @@
 namespace spindrift {
 
 struct DynamicStallOye {
-  static constexpr double chords = 4.0;  ///< that pass in the time constant (Hansen 2008, ch. 9)
   /// Beyond these angles from zero lift the flow is separated however it came there: lift goes over to the polar's [rad].
   static constexpr double fade_from = 40.0 * radians_per_degree, fade_to = 50.0 * radians_per_degree;
 
@@ -55,8 +54,9 @@ struct DynamicStallOye {
     return lift + (1.0 - away) * (f - still) * (line - separated);
   }
 
-  /// f after h in the relative speed [m/s], over which the static one went from `before` to `now`.
-  static double advance(double f, double before, double now, double h, double chord, double speed) {
+  /// f after h in the relative speed [m/s], over which the static one went from `before` to `now`; so many chords pass in the
+  /// time constant (4: Hansen 2008, ch. 9).
+  static double advance(double f, double before, double now, double h, double chord, double speed, double chords) {
     return lagged(f, before, now, h, chords * chord / std::max(speed, 1e-3));
   }
 };

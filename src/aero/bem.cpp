@@ -340,7 +340,8 @@ void BladeElementMomentum::remember(const Wind& wind, const DiscMotion& rotor, d
     }
     const auto [attack, speed] = flow(at, {past.normal.now, past.tangential.now});
     const double still = at.polars.oye().separation(attack, at.polars(attack).lift);
-    past.separation = DynamicStallOye::advance(past.separation, past.still_separation, still, h, at.ring.chord, speed);
+    past.separation =
+        DynamicStallOye::advance(past.separation, past.still_separation, still, h, at.ring.chord, speed, unsteady_.stall_lag);
     past.still_separation = still;
     if (past_size() == long_past)
       past.leishman =

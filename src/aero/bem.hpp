@@ -93,6 +93,7 @@ struct UnsteadyFlow {
   std::optional<double> inflow_time{};  ///< tau_1 [s]; absent: by wind and induction
   enum class Stall { none, oye, beddoes_leishman };
   Stall stall = Stall::none;
+  double stall_lag = 4.0;                         ///< for Oye [chords]
   double speed_of_sound = 340.0;                  ///< for Beddoes & Leishman [m/s]
   std::optional<FreeVortexWake::Options> wake{};  ///< of filaments, in place of the balance with momentum; not with `inflow`
 };

@@ -34,6 +34,7 @@ BladeLoads::BladeLoads(const Turbine& turbine, const AeroOptions& aero, const Ro
                 {.inflow = aero.dynamic_inflow == "oye",
                  .inflow_time = aero.inflow_time_s,
                  .stall = stall_named(aero.dynamic_stall),
+                 .stall_lag = aero.stall_lag_chords,
                  .speed_of_sound = aero.speed_of_sound_m_s,
                  .wake = wake_of(aero, air_density)},
                 aero.kinematic_viscosity(air_density)) {

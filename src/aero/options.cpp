@@ -148,10 +148,14 @@ const scene::Section<AeroOptions>& aero_section() {
           .only_if("dynamic_inflow", {"free_vortex"})
           .choice("dynamic_stall", &AeroOptions::dynamic_stall,
                   {{"none", "the polars at every instant"},
-                   {"oye", "separation lags by the passage of four chords, after Oye"},
+                   {"oye", "separation lags by the passage of stall_lag_chords, after Oye"},
                    {"beddoes_leishman", "lags of wake, pressure and separation, and a vortex from the leading edge"}},
                   "How the blades' sections stall and recover.")
           .only_if("model", {"bem"})
+          .number("stall_lag_chords", &AeroOptions::stall_lag_chords, "-",
+                  "Chords that the air passes in the time constant of separation.", scene::between(0.1, 100.0))
+          .only_if("model", {"bem"})
+          .only_if("dynamic_stall", {"oye"})
           .number("speed_of_sound_m_s", &AeroOptions::speed_of_sound_m_s, "m/s",
                   "For Prandtl and Glauert's factor on the slope of attached flow.", scene::between(100.0, 2000.0))
           .only_if("model", {"bem"})

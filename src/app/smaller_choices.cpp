@@ -115,8 +115,9 @@ const std::vector<Choice>& of_engineering() {
       {"thrust curve for blades",
        [](const Scenario& s, const scene::Document& document) -> Overrides {
          if (s.aero.model != "bem" || s.rotor.operation.empty()) return {};
-         std::vector<std::string> of_blades{"aero.induction",     "aero.dynamic_inflow",     "aero.inflow_time_s",
-                                            "aero.dynamic_stall", "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s"};
+         std::vector<std::string> of_blades{
+             "aero.induction",        "aero.dynamic_inflow",     "aero.inflow_time_s",           "aero.dynamic_stall",
+             "aero.stall_lag_chords", "aero.speed_of_sound_m_s", "aero.kinematic_viscosity_m2_s"};
          of_blades.insert(of_blades.end(), of_wake.begin(), of_wake.end());
          Overrides curve{"aero.model=thrust_curve", fmt::format("aero.curve=\"{}\"", s.rotor.operation)};
          for (const Scenario& one : coupling::by_rotor(s)) {

@@ -62,7 +62,7 @@ void list_balance(DeckImport& run, const Deck& ad) {
 
 /// What takes time in the flow. Decks of version 3 have Wake_Mod 2 for the dynamic wake and AFAeroMod 2 for the unsteady
 /// aerofoils besides.
-std::string unsteady_flow(DeckImport& run, const Deck& ad, int wake) {
+std::string unsteady_flow(DeckImport& run, const Deck& ad, const WrittenTurbine& turbine, int wake) {
   std::string text;
   const int filter = ad.integer({"DBEMT_Mod"}, 0);
   const bool knows = !ad.has("AFAeroMod"), stalls = knows || ad.integer({"AFAeroMod"}, 1) == 2;
@@ -78,6 +78,9 @@ std::string unsteady_flow(DeckImport& run, const Deck& ad, int wake) {
     text += fmt::format("dynamic_stall = \"{}\"\n", leishman ? "beddoes_leishman" : "oye");
     if (leishman)
       text += fmt::format("speed_of_sound_m_s = {:.9g}\n", run.main.number({"SpdSound"}, ad.number({"SpdSound"}, 340.0)));
+    if (model == 6) text += fmt::format("stall_lag_chords = {:.9g}\n", 0.5 * turbine.separation_lag);
+    if (model == 6 && turbine.lags_differ)
+      run.leave_out(fmt::format("T_f0 of each aerofoil: all have the {:g} of the outermost", turbine.separation_lag));
     if (model != 6)
       run.leave_out(fmt::format("what the dynamic stall model of UA_Mod {} has beside {}{}", model,
                                 leishman ? "Beddoes and Leishman's" : "Oye's",
@@ -157,7 +160,7 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
     run.carry("polars at several Reynolds numbers (AFTabMod 2)");
   }
   list_balance(run, ad);
-  text += unsteady_flow(run, ad, wake);
+  text += unsteady_flow(run, ad, turbine, wake);
   text += tower_wake(run, ad, rotor);
   text += fmt::format("\n[rotor]\nbody = \"{}\"\nturbine = \"turbine.toml\"\n", system.tower_bends ? "nacelle" : "platform");
   text += "hub_m = " + toml_vector(rotor.hub) + "\naxis = " + toml_vector(rotor.axis) + "\n";

@@ -85,6 +85,31 @@ std::vector<double> reynolds_of(const std::vector<Deck>& tables) {
   return numbers;
 }
 
+/// Columns of angle, lift, drag and moment, which is not carried over.
+struct Columns {
+  std::size_t alpha, lift, drag, moment;
+};
+Columns polar_columns(const Deck& ad) {
+  return {std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
+          std::size_t(ad.number({"InCol_Cd"}, 3) - 1), std::size_t(ad.number({"InCol_Cm"}, 0) - 1)};
+}
+
+/// Lift and drag are the same at all angles: AeroDyn has no dynamic stall there, whatever InclUAdata says.
+bool is_constant(const Deck& table, const Columns& column) {
+  const std::size_t first = *table.find({"NumAlf"}) + 1, count = std::size_t(table.number({"NumAlf"}));
+  const auto rows = table.rows(first, count, std::max(column.lift, column.drag) + 1);
+  for (std::size_t k = 1; k < count; ++k)
+    for (const std::size_t c : {column.lift, column.drag})
+      if (table.to_number(rows[k][c], first + k) != table.to_number(rows[0][c], first)) return false;
+  return true;
+}
+
+/// T_f0 of the first table, in half chords; AeroDyn's default where the file has no such data.
+double separation_lag(const Deck& foil) {
+  foil.require({positive("T_f0")});
+  return foil.flag({"InclUAdata"}, false) ? foil.number({"T_f0"}, 3.0) : 3.0;
+}
+
 /// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) are told of a polar, as a turbine file has it; no stall where the
 /// polar says nothing (Leishman & Beddoes 1989; Damiani & Hayman 2019, NREL/TP-5000-66347).
 std::string stall_of(const Deck& table) {
@@ -101,11 +126,6 @@ std::string stall_of(const Deck& table) {
       std::min(table.number({"C_nalpha"}), 20.0), table.number({"alpha0"}), std::max(table.number({"Cd0"}), 0.0),
       std::max(table.number({"Cn1"}), 1e-3), std::min(table.number({"Cn2"}), 0.0));
 }
-
-/// Columns of angle, lift, drag and moment, which is not carried over.
-struct Columns {
-  std::size_t alpha, lift, drag, moment;
-};
 
 /// Returns whether some drag was negative.
 bool write_table(const Deck& table, const Columns& column, const std::filesystem::path& file, const std::string& head) {
@@ -145,8 +165,7 @@ std::vector<std::string> write_foil(const Deck& ad, const Deck& file, const std:
     left_out.push_back(fmt::format("{}: the first of its {} tables is used, as AFTabMod 1 has it", title, given));
   const std::vector<Deck> tables = split_tables(file, mode == Tables::by_reynolds ? given : 1);
   const std::vector<double> reynolds = tables.size() > 1 ? reynolds_of(tables) : std::vector<double>();
-  const Columns column{std::size_t(ad.number({"InCol_Alfa"}, 1) - 1), std::size_t(ad.number({"InCol_Cl"}, 2) - 1),
-                       std::size_t(ad.number({"InCol_Cd"}, 3) - 1), std::size_t(ad.number({"InCol_Cm"}, 0) - 1)};
+  const Columns column = polar_columns(ad);
   const bool unsteady = !ad.has("AFAeroMod") || ad.integer({"AFAeroMod"}, 1) == 2;  // older decks have a switch of their own
   const int model = ad.integer({"UA_Mod", "UAMod"}, 0);
   std::vector<std::string> said, stall;
@@ -277,6 +296,14 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
     for (const std::string& said : foils[polar]) turbine << fmt::format("  {{ number = {}, {} }},\n", n + 1, said);
   }
   turbine << "]\n";
+  std::optional<double> inner;
+  for (const int polar : ad.integer({"UA_Mod", "UAMod"}, 0) == 6 ? stretches : std::vector<int>()) {
+    const Deck& foil = decks.at(polar);
+    if (is_constant(split_tables(foil, 1)[0], polar_columns(ad))) continue;
+    written.separation_lag = separation_lag(foil);
+    written.lags_differ |= inner.value_or(written.separation_lag) != written.separation_lag;
+    inner = written.separation_lag;
+  }
   if (!outlines.empty()) turbine << "aerofoils = [\n" << write_outlines(outlines, folder) << "]\n";
   return written;
 }

@@ -48,7 +48,7 @@ TEST_CASE("the normal force of an aerofoil in dynamic stall follows the measured
   for (int n = 0; n <= 600; ++n) {
     const double a = test::loop_attack(n * h);
     const double still = interpolate_linear(attack, lift, a), now = stall.separation(a, still);
-    if (n > 0) f = DynamicStallOye::advance(f, before, now, h, test::loop_chord_m, test::loop_speed_m_s);
+    if (n > 0) f = DynamicStallOye::advance(f, before, now, h, test::loop_chord_m, test::loop_speed_m_s, 4.0);
     before = now;
     if (n >= 400) {
       angle.push_back(a);
@@ -56,6 +56,12 @@ TEST_CASE("the normal force of an aerofoil in dynamic stall follows the measured
     }
   }
   CHECK(test::loop_error(angle, normal).rms < 0.10);
+}
+
+TEST_CASE("separation lags by the passage of so many chords", "[rotor][fast]") {
+  // A step of the static point, one chord of 2 m at 50 m/s later.
+  for (const double chords : {1.5, 4.0})
+    CHECK(DynamicStallOye::advance(1.0, 0.0, 0.0, 2.0 / 50.0, 2.0, 50.0, chords) == Approx(std::exp(-1.0 / chords)));
 }
 
 TEST_CASE("held still, stall is the polar's, at every angle", "[rotor][fast]") {

@@ -726,6 +726,22 @@ TEST_CASE("what takes time in AeroDyn's flow is turned on as the deck says", "[i
   CHECK(s.aero.dynamic_inflow == (filter == "0" ? "none" : "oye"));
   CHECK(s.aero.inflow_time_s.value_or(0.0) == (filter == "1" ? 12.5 : 0.0));
   CHECK(s.aero.dynamic_stall == (stall == "0 UA_Mod" ? "none" : stall == "6 UA_Mod" ? "oye" : "beddoes_leishman"));
+  CHECK(s.aero.stall_lag_chords == (stall == "6 UA_Mod" ? 1.5 : 4.0));
+}
+
+TEST_CASE("separation lags as the aerofoil files of a deck with Oye's model say", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ad.dat", "0 UA_Mod", "6 UA_Mod");
+  deck.replace("foil.dat", "! a flat plate\n", "True InclUAdata\n5 T_f0\n");
+  CHECK(deck.scenario().aero.stall_lag_chords == 2.5);
+  CHECK_FALSE(has_word(deck.import().left_out, "T_f0"));  // a cylinder has no stall
+  deck.replace("root.dat", "0 0 0.5 0", "0 0.1 0.5 0");
+  CHECK(deck.scenario().aero.stall_lag_chords == 2.5);
+  CHECK(has_word(deck.import().left_out, "T_f0"));
+  deck.replace("foil.dat", "5 T_f0", "\"Default\" T_f0");
+  CHECK(deck.scenario().aero.stall_lag_chords == 1.5);
+  deck.replace("foil.dat", "\"Default\" T_f0", "0 T_f0");
+  CHECK(deck.refusal().find("foil.dat:2") != std::string::npos);
 }
 
 TEST_CASE("what AeroDyn is told of stall is the turbine's, its polars stay whole", "[import][fast]") {
