@@ -110,12 +110,13 @@ double separation_lag(const Deck& foil) {
   return foil.flag({"InclUAdata"}, false) ? foil.number({"T_f0"}, 3.0) : 3.0;
 }
 
-/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) are told of a polar, as a turbine file has it; no stall where the
-/// polar says nothing (Leishman & Beddoes 1989; Damiani & Hayman 2019, NREL/TP-5000-66347).
-std::string stall_of(const Deck& table) {
-  if (!table.flag({"InclUAdata"}, false)) return ", stall = { normal_slope = 0.0 }";
-  for (const char* name :
-       {"C_nalpha", "alpha0", "Cd0", "Cn1", "Cn2"}) {  // what AeroDyn finds from the polar, the program does too
+/// What the Beddoes-Leishman models of AeroDyn (UA_Mod 1 to 3) are told of a polar, as a turbine file has it. Nothing
+/// where AeroDyn finds it from the polar, as the program does (Leishman & Beddoes 1989; Damiani & Hayman 2019,
+/// NREL/TP-5000-66347).
+std::string stall_of(const Deck& table, const Columns& column) {
+  if (is_constant(table, column)) return ", stall = { normal_slope = 0.0 }";
+  if (!table.flag({"InclUAdata"}, false)) return "";
+  for (const char* name : {"C_nalpha", "alpha0", "Cd0", "Cn1", "Cn2"}) {
     std::string word = table.text({name});
     std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     if (word == "default") return "";
@@ -174,7 +175,7 @@ std::vector<std::string> write_foil(const Deck& ad, const Deck& file, const std:
     const std::string csv = reynolds.empty() ? name + ".csv" : fmt::format("{}_{}.csv", name, n + 1);
     pushes |= write_table(tables[n], column, folder / csv, fmt::format("# From {}.\n", title));
     said.push_back((reynolds.empty() ? "" : fmt::format("reynolds = {:.9g}, ", reynolds[n])) + fmt::format("file = \"{}\"", csv));
-    if (tells) stall.push_back(stall_of(tables[n]));
+    if (tells) stall.push_back(stall_of(tables[n], column));
     if (tells && stall.back().empty()) tells = false;  // all tables of a section say something of stall or none does
   }
   for (std::size_t n = 0; tells && n < said.size(); ++n) said[n] += stall[n];

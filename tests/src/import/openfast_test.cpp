@@ -766,6 +766,13 @@ TEST_CASE("what AeroDyn is told of stall is the turbine's, its polars stay whole
   CHECK(!aero::read_turbine(deck.scenario().rotor.turbine).polars[1].stall);
   deck.replace("foil.dat", "\"Default\" C_nalpha", "steep C_nalpha");
   CHECK(deck.refusal().find("foil.dat:4") != std::string::npos);
+  // So it is where the file has none of them; what does not change with the angle has no dynamic stall.
+  deck.replace("foil.dat", "True InclUAdata", "False InclUAdata");
+  deck.replace("root.dat", "! a cylinder\n", "! a cylinder\nTrue InclUAdata\n");
+  const aero::Turbine found = aero::read_turbine(deck.scenario().rotor.turbine);
+  CHECK(!found.polars[1].stall);
+  REQUIRE(found.polars[0].stall);
+  CHECK(found.polars[0].stall->normal_slope == 0.0);
 }
 
 namespace {
