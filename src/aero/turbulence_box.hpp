@@ -50,8 +50,8 @@ TurbulenceBox box_of(const BtsFile& file);
 /// Largest scale that sixteen bits bear; the mean wind and its shear are part of it.
 BtsFile bts_of(const TurbulenceBox& box, const std::string& description);
 
-/// Three files of floats, one per component, as HAWC2 reads them: x (along the wind) slowest, y, z fastest; the plane of the
-/// largest x passes first. Throws scene::SceneError naming file and byte.
+/// Three files of floats, one per component, in the order of InflowWind: planes in the order in which they pass slowest, then
+/// rows across from left to right facing along the wind, z from below fastest. Throws scene::SceneError naming file and byte.
 struct MannGrid {
   std::array<int, 3> points{};  ///< x, y, z
   std::array<double, 3> spacing_m{};

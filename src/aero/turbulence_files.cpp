@@ -187,7 +187,7 @@ TurbulenceBox read_mann(const std::array<std::string, 3>& paths, const MannGrid&
         for (std::size_t z = 0; z < nz; ++z) {
           const float value = field[(x * ny + y) * nz + z];
           refuse_storm(paths[c], 4 * ((x * ny + y) * nz + z), value);
-          box.values[(((nx - 1 - x) * nz + z) * ny + y) * 3 + c] = value;
+          box.values[((x * nz + z) * ny + (ny - 1 - y)) * 3 + c] = value;
         }
   }
   return box;

@@ -84,7 +84,9 @@ const scene::Section<TurbulenceOptions>& turbulence_section() {
           .choice("model", &TurbulenceOptions::model,
                   {{"kaimal", TurbulenceModel::kaimal, "made here, with Kaimal's spectra and IEC's coherence (Veers)"},
                    {"bts", TurbulenceModel::bts, "TurbSim's full-field file, mean wind and shear included"},
-                   {"mann", TurbulenceModel::mann, "three binaries of a Mann box as HAWC2 reads them, added to the wind"}},
+                   {"mann", TurbulenceModel::mann,
+                    "three binaries of a Mann box as OpenFAST reads them, the first plane first and each from left to right, "
+                    "added to the wind"}},
                   "Where it comes from.")
           .path("file", &TurbulenceOptions::file, "The .bts file.")
           .only_if("model", {"bts"})

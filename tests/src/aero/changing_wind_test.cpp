@@ -87,7 +87,7 @@ WindOptions solenoidal(double speed) {
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k) {
-        const double x = kx * d * i, y = ky * (d * j - 0.5 * width), z = ky * (d * k - 0.5 * width);
+        const double x = -kx * d * i, y = ky * (0.5 * width - d * j), z = ky * (d * k - 0.5 * width);
         const double u = amplitude * (std::cos(x) * std::sin(y) - std::sin(x) * std::sin(z));
         const double v = -amplitude * kx / ky * std::sin(x) * std::cos(y), w = -amplitude * kx / ky * std::cos(x) * std::cos(z);
         field[0].push_back(float(u)), field[1].push_back(float(v)), field[2].push_back(float(w));

@@ -125,7 +125,7 @@ TEST_CASE("a box survives its .bts to the last of sixteen bits", "[aero][fast]")
     CHECK(double(again.values[n]) - (n % 3 == 0 ? 10.0 : 0.0) == Approx(box.values[n]).margin(1.0 / file.slope[n % 3]));
 }
 
-TEST_CASE("a Mann box has z fastest and its plane of largest x first", "[aero][fast]") {
+TEST_CASE("a Mann box has z fastest, its first plane first and each plane from left to right", "[aero][fast]") {
   const TemporaryFile u("u.bin"), v("v.bin"), w("w.bin");
   const int nx = 3, ny = 2, nz = 4;
   for (const TemporaryFile* file : {&u, &v, &w}) {
@@ -135,9 +135,10 @@ TEST_CASE("a Mann box has z fastest and its plane of largest x first", "[aero][f
   }
   const TurbulenceBox box = read_mann({u.path, v.path, w.path}, {{nx, ny, nz}, {20.0, 10.0, 10.0}}, 10.0, 90.0);
   CHECK(box.step_s == 2.0);
-  CHECK(box.at(0.0, -5.0, 75.0) == Eigen::Vector3d(16.0, 116.0, 216.0));
-  CHECK(box.at(0.0, 5.0, 75.0).x() == 20.0);
-  CHECK(box.at(2.0, -5.0, 85.0).x() == 9.0);
+  CHECK(box.at(0.0, 5.0, 75.0) == Eigen::Vector3d(0.0, 100.0, 200.0));
+  CHECK(box.at(0.0, -5.0, 75.0).x() == 4.0);
+  CHECK(box.at(2.0, 5.0, 85.0).x() == 9.0);
+  CHECK(box.at(4.0, 5.0, 75.0).x() == 16.0);
   CHECK_THROWS_AS(read_mann({u.path, v.path, w.path}, {{nx, ny, nz + 1}, {20.0, 10.0, 10.0}}, 10.0, 90.0), scene::SceneError);
   for (const float storm : {-3e38f, std::numeric_limits<float>::quiet_NaN()}) {
     CAPTURE(storm);
