@@ -147,10 +147,10 @@ class WindInTime {
     const double offset = event_->what == WindEvent::ews_vertical ? from_hub.z() : across(direction).dot(from_hub);
     return (event_->reversed ? -1.0 : 1.0) * iec::ews(iec_, offset, t - event_->start_s);
   }
-  /// Frozen turbulence: what is downwind passed the hub earlier. Half the width ahead, so that no time is below zero.
+  /// Frozen turbulence: what is downwind passed earlier.
   double time_in_box(double t, const Eigen::Vector3d& point) const {
-    const double later = along(direction_).dot(point - site_.hub) / box_.wind;
-    return t + start_ + 0.5 * box_.width() / box_.wind - later;
+    const double later = along(direction_).dot(point - origin_) / box_.wind;
+    return t + start_ + lead_ / box_.wind - later;
   }
   /// Sides, bottom and top of what varies over the rotor [m].
   double half_width() const { return has_box() ? 0.5 * box_.width() : 0.55 * site_.diameter; }
@@ -184,7 +184,7 @@ class WindInTime {
 
   /// Blades of a rotor that faces the wind's side reach upwind by its radius.
   void require_box_until_end() const {
-    const double before = start_ + (0.5 * box_.width() + site_.upwind + 0.5 * site_.diameter) / box_.wind,
+    const double before = start_ + (lead_ + site_.upwind + 0.5 * site_.diameter) / box_.wind,
                  last = (box_.steps - 1) * box_.step_s;
     constexpr double float_rounding = 1e-6;  // of the file's step
     if (box_.periodic || before + site_.t_end <= last * (1.0 + float_rounding)) return;
@@ -198,7 +198,7 @@ class WindInTime {
   }
 
   void make_box(const TurbulenceOptions& o, const WindOptions& wind) {
-    start_ = o.start_s;
+    start_ = o.start_s, origin_ = site_.hub;
     const double hub_wind = speed_ * wind_profile(wind).share(site_.hub.z());
     const auto refuse = [](const std::string& key, const std::string& what) {
       throw scene::SceneError({{"", 0, "wind.turbulence" + key, "", what}});
@@ -228,6 +228,10 @@ class WindInTime {
         break;
       }
     }
+    // Periodic files as InflowWind has them. Else half the width ahead of the hub, so that no time is below zero.
+    const bool at_first_plane = o.model != TurbulenceModel::kaimal && box_.periodic;
+    if (at_first_plane) origin_.setZero();
+    lead_ = at_first_plane ? 0.0 : 0.5 * box_.width();
     const double radius = 0.5 * site_.diameter, above = radius + 0.5 * site_.up;
     if (0.5 * box_.width() < radius + 0.5 * site_.across || box_.bottom > site_.hub.z() - above ||
         box_.top() < site_.hub.z() + above)
@@ -241,6 +245,8 @@ class WindInTime {
   }
 
   double speed_, direction_, incidence_, start_ = 0.0;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  ///< from where distances along the wind count
+  double lead_ = 0.0;                                 ///< from there to the box's first plane at the start [m]
   WindSite site_;
   WindTable table_;
   std::optional<WindEventOptions> event_;

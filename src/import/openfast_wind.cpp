@@ -50,14 +50,16 @@ std::string mann_box(DeckImport& run, const Deck& w, double hub_height) {
     files += fmt::format("{}\"{}\"", files.empty() ? "" : ", ", path.filename().string());
   }
   if (w.integer({"ScaleMethod"}, 0) != 0) run.leave_out("ScaleMethod: the Mann box is not scaled");
-  if (w.number({"XOffset"}, 0.0) != 0.0) run.leave_out("XOffset: the Mann box begins at its end");
+  const double length = w.number({"nx"}) * w.number({"dx"}), offset = w.number({"XOffset"}, 0.0);
+  const double ahead = offset - length * std::floor(offset / length);
   run.carry("wind: Mann box");
   return fmt::format(
       "speed_m_s = {:.9g}\n{}[wind.turbulence]\nmodel = \"mann\"\nfiles = [{}]\npoints = [{}, {}, {}]\nspacing_m = [{:.9g}, "
       "{:.9g}, "
-      "{:.9g}]\n",
+      "{:.9g}]\n{}",
       w.number({"URef"}), mann_profile(run, w, hub_height), files, w.integer({"nx"}, 0), w.integer({"ny"}, 0),
-      w.integer({"nz"}, 0), w.number({"dx"}), w.number({"dy"}), w.number({"dz"}));
+      w.integer({"nz"}, 0), w.number({"dx"}), w.number({"dy"}), w.number({"dz"}),
+      ahead == 0.0 ? "" : fmt::format("start_s = {:.9g}\n", ahead / w.number({"URef"})));
 }
 
 /// Columns of a uniform wind file: InflowWind reads nine where the first row has them, otherwise the eight without upflow.

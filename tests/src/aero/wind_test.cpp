@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/rotor/turbulence_kaimal.hpp"
 #include "src/aero/turbulence_box.hpp"
 #include "src/scene/error.hpp"
 
@@ -134,8 +135,17 @@ TEST_CASE("a .bts that does not repeat is refused where it ends before the run, 
   options.turbulence->start_s = 0.0;
   CHECK_NOTHROW(for_run(0.2));
   CHECK_THROWS_WITH(for_run(0.2, 15.0), Contains("wind.turbulence.file"));
-  file.id = 8;
-  write_bts(file, path);
-  CHECK_NOTHROW(for_run(1000.0));
+  // At the start the first plane is half the width downwind of the hub; of a file that repeats it is at x = 0.
+  options.turbulence->start_s = 1.0;
+  file.grid[3 * 9 * 2 + 12] = 16;  // the middle of the plane at 1 s
+  for (const int id : {7, 8}) {
+    file.id = std::int16_t(id);
+    write_bts(file, path);
+    const Wind wind = for_run(id == 8 ? 1000.0 : 0.0);
+    const Eigen::Vector3d first = id == 8 ? Eigen::Vector3d(0.0, hub.y(), hub.z()) : hub + Eigen::Vector3d(100.0, 0.0, 0.0);
+    CHECK(wind.at(0.0, first).x() == 16.0);
+    CHECK(wind.at(0.0, first + Eigen::Vector3d(5.0, 0.0, 0.0)).x() == 10.0);
+    CHECK(wind.at(0.0, first - Eigen::Vector3d(2.5, 0.0, 0.0)).x() == Approx(13.0));
+  }
   std::filesystem::remove(path);
 }

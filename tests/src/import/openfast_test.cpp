@@ -510,8 +510,9 @@ TEST_CASE("the mean wind of a deck's Mann box is the scene's", "[import][fast]")
   CHECK_THAT(scene(), Contains("profile = \"logarithmic\"") && Contains("roughness_m = 0.03"));
   deck.replace("ifw.dat", "1 WindProfile", "2 WindProfile");
   CHECK_THAT(scene(), Contains("profile = \"power_law\"") && Contains("shear_exponent = 0.2"));
-  deck.replace("ifw.dat", "0 XOffset", "30 XOffset");
-  CHECK(has_word(deck.import().left_out, "XOffset"));
+  CHECK_THAT(scene(), !Contains("start_s"));
+  deck.replace("ifw.dat", "0 XOffset", "-20 XOffset");  // of a box of 200 m that repeats, in 9 m/s
+  CHECK_THAT(scene(), Contains("start_s = 20\n"));
   deck.replace("ifw.dat", std::to_string(hub), "100");
   CHECK(has_word(deck.import().left_out, "RefHt_Hawc 100"));
 }
