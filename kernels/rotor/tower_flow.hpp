@@ -22,12 +22,14 @@ inline TowerFlow tower_flow(double x, double y) {
 }
 
 /// The wake behind it, of a tower with this drag coefficient: wind lost over the undisturbed (Powles 1983, as AeroDyn has it).
-/// Its loss of momentum is the tower's drag. Where the blades are before the tower it is nothing.
+/// Its loss of momentum is the tower's drag, but for what is left out because it takes half of the wind at most, as in AeroDyn
+/// since 2022: near a tower of much drag more would flow backwards. Where the blades are before the tower it is nothing.
 inline double tower_wake(double x, double y, double drag) {
   const double width = std::sqrt(std::sqrt(std::max(x * x + y * y, 1.0)));
   if (x <= 0.0 || std::abs(y) >= width) return 0.0;
   const double cosine = std::cos(0.5 * pi * y / width);
-  return -drag / width * cosine * cosine;
+  constexpr double most = 0.5;
+  return -std::min(drag / width * cosine * cosine, most);
 }
 
 }  // namespace spindrift
