@@ -57,6 +57,9 @@ void list_balance(DeckImport& run, const Deck& ad) {
         std::pair{"TanInd", "the air is turned by the rotor"}, std::pair{"AIDrag", "drag is in the axial balance"},
         std::pair{"TIDrag", "drag is in the tangential balance"}})
     if (!ad.flag({key}, true)) run.leave_out(fmt::format("{} False: {}", key, what));
+  if (ad.integer({"BEM_Mod"}, 1) == 2)
+    run.leave_out("BEM_Mod 2: the balance of momentum on a polar grid, which differs on rotors with much cone");
+  if (ad.flag({"SectAvg"}, false)) run.leave_out("SectAvg: a blade meets the wind of its place, not the mean of a sector");
   if (ad.integer({"DBEMT_Mod"}, 0) == -1) run.leave_out("the frozen wake (DBEMT_Mod -1)");
 }
 
@@ -81,7 +84,9 @@ std::string unsteady_flow(DeckImport& run, const Deck& ad, const WrittenTurbine&
     if (model == 6) text += fmt::format("stall_lag_chords = {:.9g}\n", 0.5 * turbine.separation_lag);
     if (model == 6 && turbine.lags_differ)
       run.leave_out(fmt::format("T_f0 of each aerofoil: all have the {:g} of the outermost", turbine.separation_lag));
-    if (model != 6)
+    if (model == 4)
+      run.leave_out("UA_Mod 4 has no vortex from the leading edge: Beddoes and Leishman's model here has one");
+    else if (model != 6)
       run.leave_out(fmt::format("what the dynamic stall model of UA_Mod {} has beside {}{}", model,
                                 leishman ? "Beddoes and Leishman's" : "Oye's",
                                 model <= 3 ? ": time constants that change within a stall, of each polar" : ""));

@@ -427,6 +427,11 @@ TEST_CASE("what the scene cannot say is told", "[import][fast]") {
   std::ostringstream scene;
   scene << std::ifstream(deck.folder / "scene/scene.toml").rdbuf();
   CHECK(scene.str().find("# - motion of yaw bearing") != std::string::npos);
+  SmallDeck smooth, vortex;
+  smooth.replace("ad.dat", "0 UA_Mod", "4 UA_Mod");
+  vortex.replace("ad.dat", "0 UA_Mod", "5 UA_Mod");
+  CHECK(has_word(smooth.import().left_out, "UA_Mod 4 has no vortex from the leading edge"));
+  CHECK(has_word(vortex.import().left_out, "UA_Mod 5 has beside"));
 }
 
 TEST_CASE("settings of a deck that the scene has not, and that change its loads, are told", "[import][fast]") {
@@ -439,7 +444,8 @@ TEST_CASE("settings of a deck that the scene has not, and that change its loads,
         Setting{"ad.dat", "0.7 SkewModFactor", "SkewModFactor 0.7"}, Setting{"ad.dat", "False TipLoss", "TipLoss"},
         Setting{"ad.dat", "False HubLoss", "HubLoss"}, Setting{"ad.dat", "False TanInd", "TanInd"},
         Setting{"ad.dat", "False AIDrag", "AIDrag"}, Setting{"ad.dat", "False TIDrag", "TIDrag"},
-        Setting{"ad.dat", "-1 DBEMT_Mod", "DBEMT_Mod -1"}, Setting{"ed.dat", "90 AzimB1Up", "AzimB1Up"}}) {
+        Setting{"ad.dat", "-1 DBEMT_Mod", "DBEMT_Mod -1"}, Setting{"ad.dat", "2 BEM_Mod", "BEM_Mod 2"},
+        Setting{"ad.dat", "True SectAvg", "SectAvg"}, Setting{"ed.dat", "90 AzimB1Up", "AzimB1Up"}}) {
     SmallDeck deck;
     INFO(line);
     CHECK_FALSE(has_word(deck.import().left_out, told));
@@ -448,8 +454,10 @@ TEST_CASE("settings of a deck that the scene has not, and that change its loads,
   }
   SmallDeck same;
   same.files["ad.dat"] +=
-      "1 AFAeroMod\n2 SkewMod\n\"default\" SkewModFactor\nTrue TipLoss\nTrue HubLoss\nTrue TanInd\n0 DBEMT_Mod\n";
-  for (const char* word : {"Skew", "Loss", "TanInd", "DBEMT_Mod"}) CHECK_FALSE(has_word(same.import().left_out, word));
+      "1 AFAeroMod\n2 SkewMod\n\"default\" SkewModFactor\nTrue TipLoss\nTrue HubLoss\nTrue TanInd\n0 DBEMT_Mod\n"
+      "1 BEM_Mod\nFalse SectAvg\n";
+  for (const char* word : {"Skew", "Loss", "TanInd", "DBEMT_Mod", "BEM_Mod", "SectAvg"})
+    CHECK_FALSE(has_word(same.import().left_out, word));
   same.replace("ed.dat", "3 BlPitch(3)", "5 BlPitch(3)");
   CHECK(has_word(same.import().left_out, "BlPitch(3)"));
 }
