@@ -95,6 +95,18 @@ class WindInTime {
   bool has_box() const { return !box_.values.empty(); }
   double carrier() const { return box_.wind; }
 
+  std::string spread() const {
+    if (asked_ == 0.0) return "";
+    double sum = 0.0;  // of a mean of zero
+    for (std::size_t n = 0; n < box_.values.size(); n += 3) sum += double(box_.values[n]) * box_.values[n];
+    const double has = std::sqrt(3.0 * sum / double(box_.values.size()));
+    if (std::abs(has / asked_ - 1.0) <= 0.02) return "";
+    return fmt::format(
+        "standard deviation along the wind {:.4g} m/s, asked for {:.4g}: the box has nothing slower than duration_s or faster "
+        "than two step_s",
+        has, asked_);
+  }
+
  private:
   static Eigen::Vector3d along(double direction) { return blowing(direction, 0.0); }
   static Eigen::Vector3d across(double direction) { return {-std::sin(direction), std::cos(direction), 0.0}; }
@@ -223,8 +235,9 @@ class WindInTime {
                      height = o.width_m.value_or(round + site_.up);
         const double sigma = o.extreme ? iec::sigma_extreme(hub_wind, o.reference_intensity, 0.2 * o.reference_wind_m_s)
                                        : iec::sigma_normal(hub_wind, o.reference_intensity);
-        box_ = kaimal_box({o.points_across, o.points_up, width, height, o.duration_s, o.step_s, hub_wind, site_.hub.z(),
-                           o.sigma_m_s.value_or(sigma), std::uint64_t(o.seed)});
+        asked_ = o.sigma_m_s.value_or(sigma);
+        box_ = kaimal_box({o.points_across, o.points_up, width, height, o.duration_s, o.step_s, hub_wind, site_.hub.z(), asked_,
+                           std::uint64_t(o.seed)});
         break;
       }
     }
@@ -247,6 +260,7 @@ class WindInTime {
   double speed_, direction_, incidence_, start_ = 0.0;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  ///< from where distances along the wind count
   double lead_ = 0.0;                                 ///< from there to the box's first plane at the start [m]
+  double asked_ = 0.0;                                ///< standard deviation of a box made here [m/s]
   WindSite site_;
   WindTable table_;
   std::optional<WindEventOptions> event_;
@@ -261,6 +275,7 @@ Eigen::Vector3d Wind::fluctuation(double t, const Eigen::Vector3d& point) const 
 }
 bool Wind::turbulent() const { return in_time && in_time->has_box(); }
 double Wind::carrier() const { return in_time->carrier(); }
+std::string Wind::spread() const { return in_time ? in_time->spread() : ""; }
 
 double starting_speed(const WindOptions& wind) {
   if (!wind.table.empty()) return read_wind_table(wind.table).speed.front();

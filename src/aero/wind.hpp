@@ -34,6 +34,8 @@ struct Wind {
   bool turbulent() const;
   /// Speed by which turbulence is carried [m/s], the way that the wind blows at the start.
   double carrier() const;
+  /// In words, where the standard deviation that a box made here has along the wind is 2 % off what was asked for; else empty.
+  std::string spread() const;
 
  private:
   Eigen::Vector3d changing(double t, const Eigen::Vector3d& point) const;

@@ -67,6 +67,8 @@ void print_models(const FloatingSystem& floating) {
   if (each.empty()) print("rotor", coupling::describe_rotor(s));
   for (std::size_t n = 0; n < each.size(); ++n) print(spoken(floating.rotors()[n].name), coupling::describe_rotor(each[n]));
   if (s.has_rotor() && s.aero.model != "prescribed") print("wind", aero::describe_wind(s.wind));
+  if (!each.empty())
+    if (const std::string spread = floating.rotors()[0].loads.wind().spread(); !spread.empty()) print("", spread);
   print("sea", coupling::describe_sea(s));
   print("moorings", coupling::describe_moorings(s));
 }

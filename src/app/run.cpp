@@ -338,6 +338,9 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   if (system) {
     for (const std::string& note : system->start.notes) spdlog::info("{}", note);
     for (const std::string& note : coupling::resolution_notes(*system->floating)) spdlog::info("{}", note);
+    if (!system->floating->rotors().empty())
+      if (const std::string spread = system->floating->rotors()[0].loads.wind().spread(); !spread.empty())
+        spdlog::info("wind: {}", spread);
     warn(system->doubts);
   } else {
     warn(scene::angle_doubts(echo));

@@ -111,6 +111,23 @@ TEST_CASE("a box blows past: what is downwind by a distance was at the hub that 
   CHECK((wind.at(1.0, hub) - 10.0 * along).norm() > 1e-2);
 }
 
+TEST_CASE("a box whose standard deviation is not the one asked for says so", "[aero][fast]") {
+  WindOptions options{.speed_m_s = 10.0};
+  const WindSite small{hub, 2.0};  // over which all points have one gust
+  options.turbulence =
+      TurbulenceOptions{.seed = 3, .sigma_m_s = 1.5, .points_across = 2, .points_up = 2, .duration_s = 600.0, .step_s = 0.5};
+  double lines = 0.0;  // from 1 / duration_s to 1 / (2 step_s)
+  for (int k = 1; k < 600; ++k) lines += kaimal::density(k / 600.0, 1.5, 8.1 * 42.0, 10.0) / 600.0;
+  const std::string said = wind_of(options, small).spread(), before = "standard deviation along the wind ";
+  CHECK_THAT(said, Contains(before) && Contains("asked for 1.5:"));
+  CHECK(std::stod(said.substr(before.size())) ==
+        Approx(std::sqrt(lines)).epsilon(0.02));  // the first point has them, the others scatter
+  options.turbulence->duration_s = 8000.0, options.turbulence->step_s = 0.1;
+  CHECK(wind_of(options, small).spread().empty());
+  options.turbulence.reset();
+  CHECK(wind_of(options, small).spread().empty());
+}
+
 TEST_CASE("a box that does not cover the rotor is refused", "[aero][fast]") {
   WindOptions options{.speed_m_s = 10.0};
   options.turbulence = TurbulenceOptions{.points_across = 3, .points_up = 3, .width_m = 100.0, .duration_s = 20.0, .step_s = 0.5};
