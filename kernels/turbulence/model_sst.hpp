@@ -14,6 +14,7 @@ struct SstOptions {
   bool limited_by_vorticity = true;  ///< rate in the limiter of the shear stress; else the strain
   bool carries_pressure = true;      ///< 2/3 rho k in momentum and in production where the flow is compressed
   double limiter = 20.0;             ///< production of k at most this times its destruction
+  bool limits_omega = false;         ///< so is the production of k in omega's equation
   double gamma1 = 0.0, gamma2 = 0.0;
   double least_cross = 1e-20;  ///< floor of the cross diffusion in F1 [kg/(m3 s2)]
 };
@@ -25,13 +26,19 @@ inline constexpr SstOptions sst_1994{.name = "sst_1994", .gamma1 = sst_gamma1, .
 inline constexpr SstOptions sst_v{.name = "sst_v", .made_by_vorticity = true, .gamma1 = sst_gamma1, .gamma2 = sst_gamma2};
 inline constexpr SstOptions sst_vm{
     .name = "sst_vm", .made_by_vorticity = true, .carries_pressure = false, .gamma1 = sst_gamma1, .gamma2 = sst_gamma2};
-inline constexpr SstOptions sst_2003{
-    .name = "sst", .limited_by_vorticity = false, .limiter = 10.0, .gamma1 = 5.0 / 9.0, .gamma2 = 0.44, .least_cross = 1e-10};
+inline constexpr SstOptions sst_2003{.name = "sst",
+                                     .limited_by_vorticity = false,
+                                     .limiter = 10.0,
+                                     .limits_omega = true,
+                                     .gamma1 = 5.0 / 9.0,
+                                     .gamma2 = 0.44,
+                                     .least_cross = 1e-10};
 inline constexpr SstOptions sst_2003_vm{.name = "sst_2003_vm",
                                         .made_by_vorticity = true,
                                         .limited_by_vorticity = false,
                                         .carries_pressure = false,
                                         .limiter = 10.0,
+                                        .limits_omega = true,
                                         .gamma1 = 5.0 / 9.0,
                                         .gamma2 = 0.44,
                                         .least_cross = 1e-10};
@@ -58,13 +65,15 @@ struct MenterSst {
   SPINDRIFT_INLINE Source<Real, 2> source(const Flow<Real>& f, const Turbulence<Real, 2>& t) const {
     const Blend<Real> b = blend(f, t);
     const Real k = t.q[0], omega = t.q[1], destruction = beta_star * f.rho * k * omega;
-    // Production per eddy viscosity, and what dilatation adds to it.
+    // Production of k over nu_t, of which omega's is gamma times: nothing is divided by k.
     const Real rate = options.made_by_vorticity ? vorticity(f) : strain(f), div = f.u.x + f.v.y + f.w.z;
     Real rate2 = rate * rate, dilatation(0.0);
     if constexpr (!options.made_by_vorticity) rate2 -= (2.0 / 3.0) * div * div;
-    if constexpr (options.carries_pressure) dilatation = (2.0 / 3.0) * f.rho * k * div;
-    const Real production = min(f.rho * b.nu_t * rate2 - dilatation, options.limiter * destruction);
-    return {{production - destruction, mix(b.f1, options.gamma1, options.gamma2) * f.rho * rate2 -
+    if constexpr (options.carries_pressure) dilatation = (2.0 / 3.0) * f.rho * div;
+    const Real production = min(f.rho * b.nu_t * rate2 - dilatation * k, options.limiter * destruction);
+    Real over_nu_t = f.rho * rate2 - dilatation * b.k_over_nu_t;
+    if constexpr (options.limits_omega) over_nu_t = min(over_nu_t, options.limiter * beta_star * f.rho * omega * b.k_over_nu_t);
+    return {{production - destruction, mix(b.f1, options.gamma1, options.gamma2) * over_nu_t -
                                            mix(b.f1, beta1, beta2) * f.rho * omega * omega + (1.0 - b.f1) * b.cross}};
   }
 
@@ -89,7 +98,7 @@ struct MenterSst {
  private:
   template <class Real>
   struct Blend {
-    Real f1, nu_t, cross;
+    Real f1, nu_t, k_over_nu_t, cross;
   };
   template <class Real>
   static SPINDRIFT_INLINE Real mix(const Real& f1, double inner, double outer) {
@@ -107,7 +116,8 @@ struct MenterSst {
     // tanh is 1 to round-off from 20 on, and the fourth power of what stands above would overflow.
     const Real f1 = tanh(min(a, 100.0) * min(a, 100.0)), f2 = tanh(min(argument2, 10.0) * min(argument2, 10.0));
     const Real rate = options.limited_by_vorticity ? vorticity(f) : strain(f);
-    return {f1, a1 * k / max(a1 * omega, rate * f2), cross};
+    const Real limited = max(a1 * omega, rate * f2);
+    return {f1, a1 * k / limited, limited * (1.0 / a1), cross};
   }
 };
 using Sst = MenterSst<sst_2003>;

@@ -54,6 +54,24 @@ TEMPLATE_TEST_CASE("production of k is at most the limiter times its destruction
   CHECK(s.rate[0] == Approx((limiter - 1.0) * destruction).epsilon(1e-12));
 }
 
+// Far from walls F1 = F2 = 0, so that nu_t = k / omega.
+TEMPLATE_TEST_CASE("production of omega is gamma / nu_t times that of k, which SST of 2003 limits in both equations",
+                   "[turbulence][fast]", Sst, Sst2003Vm, Sst1994, SstV, SstVm) {
+  const double rho = 1.2, omega = 50.0, unit = rho * omega * omega, gamma = newer<TestType> ? 0.44 : sst_gamma2;
+  const Turbulence<double, 2> t{{0.1, omega}, {no_gradient, no_gradient}};
+  const auto check = [&](const Vector<double>& u, const Vector<double>& v, const Vector<double>& w, double over_nu_t) {
+    const Flow<double> flow{rho, 1.8e-5, 1e5, u, v, w};
+    if (newer<TestType>) over_nu_t = std::min(over_nu_t, 10.0 * 0.09 * unit);
+    CHECK(TestType{}.source(flow, t).rate[1] == Approx(gamma * over_nu_t - 0.0828 * unit).epsilon(1e-9));
+  };
+  for (const double rate : {1e-2, 100.0, 3e4}) check({0.0, rate, 0.0}, no_gradient, no_gradient, rho * rate * rate);
+  // Compressed and expanded evenly: no strain but what changes the volume.
+  const bool pressed =
+      TestType{}.closure(Flow<double>{rho, 1.8e-5, 1e5, no_gradient, no_gradient, no_gradient}, t).pressure > 0.0;
+  for (const double div : {-300.0, -3.0, 3.0})
+    check({div / 3.0, 0.0, 0.0}, {0.0, div / 3.0, 0.0}, {0.0, 0.0, div / 3.0}, pressed ? -2.0 / 3.0 * rho * omega * div : 0.0);
+}
+
 TEST_CASE("the vorticity variant makes no turbulence in a stagnation flow, the strain variant does", "[turbulence][fast]") {
   const Flow<double> flow{1.2, 1.8e-5, 1.0, {100.0, 0.0, 0.0}, {0.0, -100.0, 0.0}, no_gradient};
   const Turbulence<double, 2> t{{0.1, 100.0}, {no_gradient, no_gradient}};
@@ -76,6 +94,10 @@ TEST_CASE("variants of SST differ in what makes turbulence, what limits the stre
     const auto c = model.closure(flow, t);
     CHECK(c.eddy_viscosity == Approx(eddy).epsilon(1e-6));  // F2 is 1 here
     CHECK(model.source(flow, t).rate[0] == Approx(eddy * rate2 + pressure - d).epsilon(1e-6));
+    // Close to the wall F1 is 1: inner gamma and beta.
+    const double gamma = newer<std::decay_t<decltype(model)>> ? 5.0 / 9.0 : sst_gamma1;
+    CHECK(model.source(flow, t).rate[1] ==
+          Approx(gamma * 1.2 / eddy * (eddy * rate2 + pressure) - 0.075 * 1.2 * 500.0 * 500.0).epsilon(1e-6));
     CHECK(c.pressure == Approx(pressure == 0.0 ? 0.0 : 2.0 / 3.0 * 1.2 * k));
   };
   check(Sst1994{}, limit_vorticity, by_strain, pressed);
