@@ -10,8 +10,9 @@ namespace spindrift::aero {
 
 namespace {
 
-/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile. Where two equations meet
-/// a wall function pressure includes the turbulence's push, 2/3 rho k, and friction is along the wall.
+/// Calls body(boundary, k, j, i, outward face, pressure, friction force) for the wall faces of a tile. On a slip wall, and where
+/// two equations meet a wall function, pressure includes the push of the stress, 2/3 rho k for the most part, and friction is
+/// along the wall; a slip wall has none.
 template <class Body>
 void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& viscous, Body&& body) {
   for (const FlowBoundary& boundary : tile.boundaries) {
@@ -21,14 +22,16 @@ void for_walls(const FlowTile& tile, const double* state, const ViscousSetting& 
       const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
       Eigen::Vector3d friction = Eigen::Vector3d::Zero();
       double p = wall_pressure(tile, state, side, k, j, i);
-      if (viscous.active && sticks(*boundary.condition)) {
+      if (viscous.active) {
         const gas::Conserved<double> flux = wall_friction(tile, state, viscous, side, k, j, i);
         friction = {flux.mx, flux.my, flux.mz};
-        if (boundary.condition->wall_law && tile.turbulence == 2) {
+        const bool slips = !sticks(*boundary.condition);
+        if (slips || (boundary.condition->wall_law && tile.turbulence == 2)) {
           const Eigen::Vector3d n(f.nx, f.ny, f.nz);
           const double push = friction.dot(n);
           friction -= push * n, p += push / f.area;
         }
+        if (slips) friction.setZero();  // but for round-off it is
       }
       body(boundary, k, j, i, f, p, friction);
     });

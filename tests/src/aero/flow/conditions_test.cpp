@@ -194,3 +194,27 @@ TEST_CASE("friction of a wall function is along the wall, the turbulence's push 
   CHECK(loads.viscous_force[0] == Approx(drag));
   CHECK(std::abs(loads.viscous_force[2]) < 1e-12 * std::abs(drag));
 }
+
+TEST_CASE("what modelled turbulence pushes on a slip wall counts as pressure", "[flow][fast]") {
+  FlowSetting s = air(0.1, {1.0, 0.0, 0.0});
+  s.viscous = true, s.turbulence = "sst", s.wind_eddy_viscosity = 100.0, s.wind_intensity = 0.1;
+  const PatchCondition open{Condition::far_field, false};
+  Case c(planar_box({.ni = 8, .nj = 8}), s,
+         {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"j_min", {.condition = Condition::slip, .loads = true}}});
+  FlowTile& tile = c.solver->tiles().front();
+  const PhysicalTime steady;
+  const FlowResidual residual(s, model_sweeps(s.turbulence), steady);
+  double* state = tile.state.data();
+  residual.fill_ghosts(tile, state), residual.gradients(tile, state), residual.fill_gradient_ghosts(tile, state);
+  const double push = 2.0 / 3.0 * gas::density(s.gas, s.stream) * 1.5 * 0.1 * 0.1 * s.speed * s.speed;
+  std::vector<double> sums(std::size_t(load_components) * c.store->tiling().patches.size());
+  double area = 0.0;
+  for (const WallPoint& p : c.solver->wall_points(tile)) {
+    CHECK(p.pressure == Approx(push));
+    CHECK(std::hypot(p.traction[0], p.traction[1], p.traction[2]) == 0.0);
+    area += p.area;
+  }
+  add_loads(tile, state, residual.viscous(), {}, sums, {});
+  const PatchLoads loads = patch_loads(sums, c.store->tiling().patch("j_min"));
+  CHECK(loads.pressure_force[2] == Approx(-push * area));
+}
