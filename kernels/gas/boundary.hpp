@@ -50,10 +50,12 @@ SPINDRIFT_INLINE Primitive<Real> far_field(const IdealGas& gas, const Primitive<
   return far_field(gas, inside, outside, f, Real(sound_speed(gas, outside)));
 }
 
-/// Inflow of known velocity and temperature: the pressure is the flow's own.
+/// Inflow of known velocity and temperature: the pressure is the flow's own, but where it comes faster than sound.
 template <class Real>
-SPINDRIFT_INLINE Primitive<Real> inflow_velocity(const Primitive<Real>& inside, const Primitive<Real>& outside) {
-  return {inside.p, outside.u, outside.v, outside.w, outside.T};
+SPINDRIFT_INLINE Primitive<Real> inflow_velocity(const IdealGas& gas, const Primitive<Real>& inside,
+                                                 const Primitive<Real>& outside, const Face<Real>& f) {
+  const auto supersonic = normal_velocity(outside, f) - f.speed <= -sound_speed(gas, outside);
+  return {select(supersonic, outside.p, inside.p), outside.u, outside.v, outside.w, outside.T};
 }
 
 /// A gas at rest that flows in: absolute values.

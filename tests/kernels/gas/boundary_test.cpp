@@ -117,7 +117,13 @@ TEST_CASE("inflow keeps the stream's velocity, outflow the outer pressure, and g
   const IdealGas gas = gauge_air();
   const Face<double> f{1.0, 0.0, 0.0, 1.0, 0.0};
   const Primitive<double> in{50.0, 30.0, 4.0, 0.0, 7.0}, ex{0.0, 20.0, 1.0, 0.0, 1.0};
-  CHECK(same(inflow_velocity(in, ex), {50.0, 20.0, 1.0, 0.0, 1.0}));
+  const Face<double> into = reversed(f);
+  CHECK(same(inflow_velocity(gas, in, ex, into), {50.0, 20.0, 1.0, 0.0, 1.0}));
+  // Faster than sound nothing of the inside reaches the face, on one that flies into the stream either.
+  const Primitive<double> fast{0.0, 480.0, 1.0, 0.0, 1.0};
+  CHECK(same(inflow_velocity(gas, in, fast, into), fast));
+  CHECK(inflow_velocity(gas, in, fast, {-1.0, 0.0, 0.0, 1.0, -300.0}).p == in.p);
+  CHECK(same(inflow_velocity(gas, in, ex, {-1.0, 0.0, 0.0, 1.0, 400.0}), ex));
   CHECK(same(outflow_pressure(gas, in, ex, f), {0.0, 30.0, 4.0, 0.0, 7.0}));
   CHECK(same(outflow_pressure(gas, Primitive<double>{50.0, -3.0, 4.0, 0.0, 7.0}, ex, f), {0.0, -3.0, 0.0, 0.0, 1.0}));
   CHECK(same(outflow_pressure(gas, Primitive<double>{50.0, 700.0, 4.0, 0.0, 7.0}, ex, f), {50.0, 700.0, 4.0, 0.0, 7.0}));

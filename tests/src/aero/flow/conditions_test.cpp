@@ -218,3 +218,23 @@ TEST_CASE("what modelled turbulence pushes on a slip wall counts as pressure", "
   const PatchLoads loads = patch_loads(sums, c.store->tiling().patch("j_min"));
   CHECK(loads.pressure_force[2] == Approx(-push * area));
 }
+
+TEST_CASE("an inflow faster than sound brings its pressure too", "[flow][fast]") {
+  FlowSetting s = air(2.0);
+  s.march.drop = 1e-8;
+  Case c(planar_box({.ni = 8, .nj = 8}), s,
+         {{"i_min", {Condition::inflow}},
+          {"i_max", {Condition::outflow}},
+          {"j_min", {Condition::symmetry}},
+          {"j_max", {Condition::symmetry}}});
+  c.solver->start([&](const Eigen::Vector3d&) {
+    gas::Primitive<double> q = s.stream;
+    q.p += 3e4, q.T += 20.0;
+    return q;
+  });
+  c.prepare();
+  c.run();
+  CHECK(c.solver->march().verdict == Verdict::converged);
+  CAPTURE(c.solver->march().steps);
+  CHECK(stream_deviation(*c.solver) < 1e-6);
+}
