@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "src/aero/flow/sweep.hpp"
+#include "src/aero/flow/sweep_gradients.hpp"
 #include "src/aero/grid/line_growth.hpp"
 
 namespace spindrift::aero {
@@ -102,7 +103,7 @@ void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting
               const auto q = gas::load_primitive<double>(state + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
               const double rho = gas::density(setting.gas, q),
                            mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
-              const double distance = tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)];
+              const double distance = distance_to_wall(tile, boundary.where.side, k, j, i);
               const Eigen::Vector3d n(f.nx, f.ny, f.nz), shear = friction - friction.dot(n) * n;
               if (viscous.active) {
                 point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/turbulence/wall_law.hpp"
+#include "src/aero/flow/boundary.hpp"
 #include "src/aero/flow/sweep.hpp"
 
 namespace spindrift::aero {
@@ -52,6 +53,23 @@ void mirror(const double* from, std::ptrdiff_t c, double factor, const double (&
 
 }  // namespace
 
+double distance_to_wall(const FlowTile& tile, Side side, int k, int j, int i) {
+  const TileGeometry& g = *tile.geometry;
+  const int extent[3] = {tile.box.ni, tile.box.nj, tile.box.nk}, at[3] = {i, j, k};
+  const bool corner = std::ranges::any_of(tile.boundaries, [&](const FlowBoundary& other) {
+    const auto &low = other.where.low, &high = other.where.high;
+    const int d = direction_of(other.where.side);
+    const auto [a, b] = along(other.where.side);
+    return other.where.side != side && sticks(*other.condition) && at[d] == (at_end(other.where.side) ? extent[d] - 1 : 0) &&
+           at[a] >= low[0] && at[a] < high[0] && at[b] >= low[1] && at[b] < high[1];
+  });
+  if (!corner) return g.wall_distance_data.data()[g.inner_box.at(k, j, i)];
+  const gas::Face<double> f = outward_face(g, side, k, j, i);
+  const double* x = g.centre_data.data() + g.cell_box.at(k, j, i);
+  const Eigen::Vector3d centre(x[0], x[g.cell_box.component], x[2 * g.cell_box.component]);
+  return std::abs((face_centre(g, side, k, j, i) - centre).dot(Eigen::Vector3d(f.nx, f.ny, f.nz)));
+}
+
 WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGas& gas, Side side, int k, int j, int i) {
   const gas::Face<double> f = outward_face(*tile.geometry, side, k, j, i);
   const std::ptrdiff_t at = tile.cells.at(k, j, i), out = (at_end(side) ? 1 : -1) * tile.cells.stride(direction_of(side));
@@ -64,7 +82,7 @@ WallCell wall_cell(const FlowTile& tile, const double* state, const gas::IdealGa
           v,
           w,
           std::sqrt(u * u + v * v + w * w),
-          tile.geometry->wall_distance_data.data()[tile.geometry->inner_box.at(k, j, i)],
+          distance_to_wall(tile, side, k, j, i),
           gas::density(gas, q),
           gas::viscosity(gas, gas::absolute_temperature(gas, q))};
 }

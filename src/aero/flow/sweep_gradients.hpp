@@ -13,6 +13,10 @@ namespace spindrift::aero {
 /// Of u, v, w, T and the turbulence unknowns, component 3 n + direction; then the closures of the model (sweep_model.hpp).
 constexpr int gradient_components(int turbulence, bool eddies) { return 3 * (4 + turbulence) + (eddies ? 2 + turbulence : 0); }
 
+/// Distance of the cell's centre from the wall that its face on this side is part of [m]: that of the nearest wall, but in a
+/// corner, where several faces of the cell stick, that of the face's plane.
+double distance_to_wall(const FlowTile& tile, Side side, int k, int j, int i);
+
 /// The first cell of a wall with a wall function: velocity along the wall relative to it, distance, density and viscosity.
 struct WallCell {
   double u, v, w, speed, distance, rho, mu;

@@ -131,20 +131,24 @@ TEST_CASE("on a wall held at a temperature turbulence has the viscosity of that 
   }
 }
 
-TEST_CASE("the first cell in a corner of walls with a wall function has the mean turbulence of both by their areas",
+TEST_CASE("the first cell in a corner of walls with a wall function has the friction of each and the mean turbulence of both",
           "[flow][fast]") {
   FlowSetting s = air(0.1, {2.0, 0.3, 1.0});  // faster along j_min than along k_min
   s.viscous = true, s.turbulence = "sst", s.limiter = "first_order", s.wind_eddy_viscosity = 1000.0, s.wind_intensity = 0.01;
   // The corner cell's face on k_min is twice as large as that on j_min.
   const BoxOptions box{.ni = 1, .nj = 2, .nk = 4};
   struct Corner {
-    double k, omega;  ///< residual of k; omega of the law
+    double k, omega;                             ///< residual of k; omega of the law
+    std::array<double, 2> friction{}, y_plus{};  ///< of the faces on j_min and k_min
   };
   const auto corner = [&](Condition on_j, Condition on_k) {
     const PatchCondition open{Condition::far_field, false};
     Case c(cartesian_box(box), s,
            {{"i_min", open}, {"i_max", open}, {"j_max", open}, {"k_max", open}, {"j_min", {on_j}}, {"k_min", {on_k}}});
-    fill_wall_distance(*c.store, wall_surface(c.grid, std::vector<std::string>{"j_min", "k_min"}));
+    std::vector<std::string> walls;
+    if (sticks(on_j)) walls.push_back("j_min");
+    if (sticks(on_k)) walls.push_back("k_min");
+    fill_wall_distance(*c.store, wall_surface(c.grid, walls));
     FlowTile& tile = c.solver->tiles().front();
     double* state = tile.state.data();
     const PhysicalTime steady;
@@ -154,14 +158,29 @@ TEST_CASE("the first cell in a corner of walls with a wall function has the mean
     const double* at = tile.residual.data() + tile.inner.at(0, 0, 0) + mean_unknowns * tile.inner.component;
     const double mass = tile.geometry->volume_data.data()[tile.geometry->cell_box.at(0, 0, 0)] * gas::density(s.gas, s.stream);
     const double omega = value(tile, mean_unknowns + 1);  // below the law's; at[c] = mass law (omega - law)
-    return Corner{at[0], 0.5 * (omega + std::sqrt(omega * omega - 4.0 * at[tile.inner.component] / mass))};
+    Corner corner{at[0], 0.5 * (omega + std::sqrt(omega * omega - 4.0 * at[tile.inner.component] / mass)), {}, {}};
+    for (const WallPoint& p : c.solver->wall_points(tile))  // the corner cell's centre is at y = 1/4, z = 1/8
+      for (const auto& [n, name, place] :
+           {std::tuple{0, "j_min", Eigen::Vector3d(0.5, 0.0, 0.125)}, std::tuple{1, "k_min", Eigen::Vector3d(0.5, 0.25, 0.0)}})
+        if (p.patch == c.store->tiling().patch(name) && (Eigen::Vector3d(p.place.data()) - place).norm() < 1e-9) {
+          corner.friction[std::size_t(n)] = Eigen::Vector3d(p.traction.data()).norm();
+          corner.y_plus[std::size_t(n)] = p.y_plus;
+        }
+    return corner;
   };
   const Corner j = corner(Condition::wall_function, Condition::slip), k = corner(Condition::slip, Condition::wall_function),
                both = corner(Condition::wall_function, Condition::wall_function);
   CAPTURE(j.k, k.k, both.k, j.omega, k.omega, both.omega);
-  CHECK(j.omega > 1.01 * k.omega);
+  CHECK(std::abs(j.omega - k.omega) > 0.01 * k.omega);
   CHECK(both.omega == Approx((j.omega + 2.0 * k.omega) / 3.0).epsilon(1e-9));
   CHECK(both.k == Approx((j.k + 2.0 * k.k) / 3.0).epsilon(1e-9));
+  // Each face has the friction of its wall alone, by its own distance.
+  for (const std::size_t n : {std::size_t(0), std::size_t(1)}) {
+    const Corner& alone = n == 0 ? j : k;
+    CHECK(alone.friction[n] > 0.0);
+    CHECK(both.friction[n] == Approx(alone.friction[n]).epsilon(1e-9));
+    CHECK(both.y_plus[n] == Approx(alone.y_plus[n]).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("friction of a wall function is along the wall, the turbulence's push counts as pressure", "[flow][fast]") {
