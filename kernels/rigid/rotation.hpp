@@ -1,4 +1,4 @@
-// Finite rotations: exponential map, its right Jacobian, Euler angles for output.
+// Finite rotations: exponential map, its right Jacobian, Euler angles for output, tilt and yaw for linear stiffness.
 // Formulas: Rodrigues; right Jacobian of SO(3) after Iserles et al. (2000), Lie-group methods, Acta Numerica 9, and Chirikjian
 // (2012). Used by the bodies' step (charts of kernels/rigid/partition.hpp) and by output; tested in tests/kernels/rigid.
 // SPDX-License-Identifier: Apache-2.0
@@ -61,6 +61,17 @@ inline Eigen::Quaterniond attitude(const Eigen::Vector3d& roll_pitch_yaw) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   return AngleAxisd(roll_pitch_yaw.z(), Vector3d::UnitZ()) * AngleAxisd(roll_pitch_yaw.y(), Vector3d::UnitY()) *
          AngleAxisd(roll_pitch_yaw.x(), Vector3d::UnitX());
+}
+
+/// Tilt and yaw [rad] of an attitude: a yaw about the vertical, then a tilt about a level axis, whose components along x and y
+/// come first. The tilt of a body turned about its own axis stays what it is. Yaw in [-pi, pi].
+inline Eigen::Vector3d tilt_and_yaw(const Eigen::Quaterniond& q) {
+  const double side = q.w() < 0.0 ? -1.0 : 1.0, upright = std::hypot(q.w(), q.z());
+  // q without its yaw, (w, z) / upright: the axis of the tilt times the sine of its half.
+  const double c = upright > 0.0 ? q.w() / upright : 1.0, s = upright > 0.0 ? q.z() / upright : 0.0;
+  const double x = c * q.x() - s * q.y(), y = c * q.y() + s * q.x(), sine = std::hypot(x, y);
+  const double scale = sine > 0.0 ? 2.0 * std::atan2(sine, upright) / sine : 2.0;
+  return {scale * x, scale * y, 2.0 * std::atan2(side * q.z(), side * q.w())};
 }
 
 }  // namespace spindrift

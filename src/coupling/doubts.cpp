@@ -8,6 +8,7 @@
 #include <set>
 
 #include "kernels/rigid/closed_surface.hpp"
+#include "kernels/rigid/rotation.hpp"
 #include "src/aero/doubts.hpp"
 #include "src/aero/operation.hpp"
 #include "src/bodies/doubts.hpp"
@@ -627,6 +628,19 @@ void doubt_origin(scene::Doubts& doubts, const Scenario& s) {
                       fmt::format("up to {:.3g} m", usual), "look at its unit: m, and that it is in the scene's coordinates"});
 }
 
+/// Radiation and excitation are those of the body as described; still water turns with it.
+void doubt_yaw(scene::Doubts& doubts, const Scenario& s) {
+  if (!s.sea.potential) return;
+  const auto body = std::ranges::find(s.bodies, s.sea.potential->body, &scene::Named<bodies::BodyOptions>::name);
+  if (body == s.bodies.end()) return;
+  constexpr double most = 5.0;
+  const double yaw = tilt_and_yaw(start_motion(body->options).attitude).z() / radians_per_degree;
+  if (std::abs(yaw) > most)
+    doubts.push_back({"bodies." + body->name + ".rotation_deg", fmt::format("a yaw of {:.4g} degrees in potential flow", yaw),
+                      fmt::format("up to {:g} degrees", most),
+                      "waves and radiation stay those of the hull as described: describe it turned, with files of that hull"});
+}
+
 /// The highest hub or end of a beam [m].
 std::optional<double> tower_top(const Scenario& s) {
   std::optional<double> top;
@@ -662,7 +676,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   if (s.has_sea() && !motions.empty()) in_sea.draft = doubt_floating(all, floating, motions);
   if (s.has_sea()) append(all, sea_doubts(s.sea, s.waves, sea_environment(s.environment), in_sea));
   if (s.has_sea()) append(all, wave_doubts(s.waves, sea_environment(s.environment)));
-  if (s.has_sea()) doubt_damping(all, s), doubt_matrices(all, s), doubt_origin(all, s);
+  if (s.has_sea()) doubt_damping(all, s), doubt_matrices(all, s), doubt_origin(all, s), doubt_yaw(all, s);
   std::set<std::string> told;
   for (const Scenario& one : by_rotor(s)) append(all, rotor_file_doubts(one, told));
   doubt_times(all, floating);

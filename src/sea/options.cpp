@@ -57,8 +57,10 @@ const Section<MatricesOptions>& matrices_section() {
           .text("body", &MatricesOptions::body, "Name of a body.")
           .required()
           .vector("point_m", &MatricesOptions::point_m, "m", "The point, initial earth coordinates.")
-          .rows("stiffness", &MatricesOptions::stiffness, "-",
-                "Six rows: force and moment [N, N m] per displacement and rotation [m, rad] since the start, earth axes.")
+          .rows(
+              "stiffness", &MatricesOptions::stiffness, "-",
+              "Six rows: force and moment [N, N m] per displacement and rotation [m, rad] since the start, about the axes of the "
+              "earth however the body yaws.")
           .rows("damping", &MatricesOptions::damping, "-", "Six rows: the same per velocity [m/s, rad/s].")
           .rows("quadratic_damping", &MatricesOptions::quadratic_damping, "-",
                 "Six rows: the same per velocity times its magnitude, component by component.")

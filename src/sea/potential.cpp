@@ -91,12 +91,20 @@ void require_passive(const PotentialOptions& o, const WamitRadiation& radiation,
   }
 }
 
+/// Turns force and moment, or displacement and rotation, about the vertical.
+Vector6 yawed(const Vector6& v, double yaw) {
+  const Eigen::AngleAxisd turn(yaw, Eigen::Vector3d::UnitZ());
+  Vector6 turned;
+  turned << turn * v.head<3>(), turn * v.tail<3>();
+  return turned;
+}
+
 }  // namespace
 
 PoseOfPoint pose_of(const Motion& now, const Motion& initial, const Eigen::Vector3d& point) {
   PoseOfPoint pose;
   pose.point = now.point(point);
-  pose.displacement << pose.point - initial.point(point), euler_angles(now.attitude * initial.attitude.conjugate());
+  pose.displacement << pose.point - initial.point(point), tilt_and_yaw(now.attitude * initial.attitude.conjugate());
   pose.velocity << now.point_velocity(point), now.omega_earth();
   return pose;
 }
@@ -193,7 +201,9 @@ std::size_t PotentialBody::states() const {
 
 Wrench PotentialBody::load(double t, double ramp, const Motion& motion) const {
   const PoseOfPoint pose = pose_of(motion, initial_, point_);
-  Vector6 force = buoyancy_ - stiffness_ * pose.displacement;
+  // Still water knows no compass: its stiffness, and the arm of its buoyancy, turn with the hull.
+  const double yaw = pose.displacement[5];
+  Vector6 force = yawed(buoyancy_ - stiffness_ * yawed(pose.displacement, -yaw), yaw);
   if (recalled_)
     std::visit(
         [&](const auto& memory) {

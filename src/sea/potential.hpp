@@ -1,8 +1,9 @@
 // Potential flow round one floating body: Cummins' equation with the coefficients of a boundary-element code. Added mass at
 // infinite frequency goes on the left-hand side; radiation memory is a convolution with the body's velocity or a fitted state
 // space; waves excite by force per amplitude, and to second order; still water carries by exact buoyancy of the cylinders or by
-// linear stiffness. Small motions about the scene's position, axes of the earth. Theory: docs/theory/sea_engineering.md. Part of
-// EngineeringSea; tested in tests/src/sea/potential_test.cpp. SPDX-License-Identifier: Apache-2.0
+// linear stiffness that yaws with the hull. Else small motions about the scene's position, axes of the earth. Theory:
+// docs/theory/sea_engineering.md. Part of EngineeringSea; tested in tests/src/sea/potential_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -21,8 +22,8 @@
 
 namespace spindrift::sea {
 
-/// Displacement of a point of a body since the start and the body's rotation as roll, pitch, yaw; velocity of the same, earth
-/// axes.
+/// Displacement of a point of a body since the start and the body's rotation as tilt about x, about y, and yaw; velocity of the
+/// same, earth axes.
 struct PoseOfPoint {
   Vector6 displacement, velocity;
   Eigen::Vector3d point;  ///< now [m]

@@ -36,3 +36,10 @@ TEST_CASE("Euler angles and attitude are inverses, and pitch is positive nose do
   CHECK((euler_angles(attitude(angles)) - angles).norm() < 1e-14);
   CHECK((attitude({0, 0.1, 0}) * Vector3d::UnitX()).z() < 0.0);  // the downwind side goes down
 }
+
+TEST_CASE("a tilt after a yaw is told apart from it, whatever the yaw", "[rigid][fast]") {
+  const double yaw = GENERATE(0.0, 0.5, -2.5, 3.1), angle = GENERATE(0.0, 1e-9, 0.4, 2.0);
+  const Vector3d tilt = angle * Vector3d(0.6, -0.8, 0.0);
+  Eigen::Quaterniond q = rotation_exp(tilt) * rotation_exp({0, 0, yaw});
+  for (int sign = 0; sign < 2; ++sign, q.coeffs() *= -1.0) CHECK((tilt_and_yaw(q) - tilt - Vector3d(0, 0, yaw)).norm() < 1e-14);
+}

@@ -134,6 +134,16 @@ TEST_CASE("linear damping opposes the velocity of its point, in body axes", "[se
   CHECK((w.moment - Vector3d(8.0 * 1.8e5 + 5e5, 0, 0)).norm() < 1e-5);
 }
 
+TEST_CASE("stiffness of matrices acts about axes of the earth however the body has yawed", "[sea][fast]") {
+  SeaOptions options = model("hydrostatic");
+  options.matrices.push_back({.body = "spar", .stiffness = {6, std::array<double, 6>{}}});
+  for (std::size_t i = 3; i < 6; ++i) options.matrices[0].stiffness[i][i] = double(i) * 1e6;
+  const EngineeringSea sea(options, {}, tank, {spar(-10, 5, 2)});
+  Motion m;
+  m.attitude = Eigen::AngleAxisd(0.1, Vector3d::UnitX()) * Eigen::AngleAxisd(0.5, Vector3d::UnitZ());
+  CHECK((parts(sea, m).damping.moment - Vector3d(-0.3e6, 0, -2.5e6)).norm() < 1e-6);
+}
+
 TEST_CASE("a column in a current feels drag on its wetted side, and none when it drifts along", "[sea][fast]") {
   SeaOptions options = model("morison");
   options.current_m_s = {1.5, 0, 0};

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iomanip>
 
+#include "kernels/rigid/rotation.hpp"
 #include "src/bodies/loads.hpp"
 #include "src/bodies/system.hpp"
 #include "src/scene/error.hpp"
@@ -249,6 +250,60 @@ TEST_CASE("cylinders and the stiffness of the same column carry it alike in wave
   for (double t = 0.0; t < 10.0; t += 1.0)
     for (const double z : {-0.5, 0.0, 0.8})
       CHECK(load_on(cylinders, t, {0.0, 0.0, z}).force.z() == Approx(load_on(linear, t, {0.0, 0.0, z}).force.z()).epsilon(1e-9));
+}
+
+namespace {
+
+/// A hull of roll and pitch stiffness with its buoyancy 2 m aside: the moment of still water about its point, at the origin.
+struct Hull {
+  Files files;
+  PotentialBody water;
+  Hull(double roll, double pitch) : water(options(files, roll, pitch), {density, 100.0, 10.0}, Motion{}, {}, 0.05) {}
+  static PotentialOptions options(const Files& files, double roll, double pitch) {
+    std::ofstream(files.folder / "hull.hst") << "4 4 " << roll << "\n5 5 " << pitch << "\n";
+    PotentialOptions o = files.options();
+    o.hydrostatics_file = files.folder / "hull.hst", o.radiation = "none";
+    return o;
+  }
+  Eigen::Vector3d moment(const Eigen::Quaterniond& attitude) const {
+    Motion m;
+    m.attitude = attitude;
+    return water.load(0.0, 0.0, m).moment;
+  }
+};
+
+Eigen::Quaterniond turned(double tilt_x, double tilt_y, double yaw) {
+  return rotation_exp({tilt_x, tilt_y, 0.0}) * rotation_exp({0.0, 0.0, yaw});
+}
+
+}  // namespace
+
+TEST_CASE("a round hull in potential flow is righted alike whatever its yaw, a barge by the stiffness of its own axes",
+          "[sea][fast]") {
+  const double yaw = pi / 6.0, scale = density * 10.0;
+  const Hull round(100.0, 100.0), barge(100.0, 900.0);
+  const Eigen::Vector3d straight = round.moment(turned(0.1, -0.2, 0.0));
+  CHECK((straight - scale * 100.0 * Eigen::Vector3d(-0.1, 0.2, 0.0)).norm() < 1e-12 * scale * 100.0);
+  CHECK((round.moment(turned(0.1, -0.2, yaw)) - straight).norm() < 1e-12 * straight.norm());
+  // Tilted about its own x axis, and its own y axis.
+  const Eigen::Vector3d x(std::cos(yaw), std::sin(yaw), 0.0), y(-std::sin(yaw), std::cos(yaw), 0.0);
+  CHECK((barge.moment(turned(0.1 * x.x(), 0.1 * x.y(), yaw)) + scale * 10.0 * x).norm() < 1e-12 * scale * 10.0);
+  CHECK((barge.moment(turned(0.1 * y.x(), 0.1 * y.y(), yaw)) + scale * 90.0 * y).norm() < 1e-12 * scale * 90.0);
+}
+
+TEST_CASE("still water does no work on a yawed hull in potential flow round a closed path of tilt", "[sea][fast]") {
+  const double pitch = GENERATE(100.0, 300.0), yaw = GENERATE(0.5, 1.5), tilt = 0.02;
+  const Hull hull(100.0, pitch);
+  constexpr int steps = 400;
+  double work = 0.0;
+  const auto at = [&](double n) {
+    return turned(tilt * std::cos(2.0 * pi * n / steps), tilt * std::sin(2.0 * pi * n / steps), yaw);
+  };
+  for (int n = 0; n < steps; ++n) {
+    const Eigen::Quaterniond step = at(n + 1) * at(n).conjugate();  // earth axes
+    work += hull.moment(at(n + 0.5)).dot(2.0 * step.vec());
+  }
+  CHECK(std::abs(work) < 2e-3 * density * 10.0 * pitch * tilt * tilt);
 }
 
 TEST_CASE("in regular waves heave settles on X / (c - w^2 (m + A) + i w B) of the frequency domain within 1 %", "[sea][fast]") {
