@@ -28,9 +28,9 @@ inline Eigen::Vector3d drag_end(double density, double coefficient, double area,
   return 0.5 * density * coefficient * area * std::abs(v) * v * axis;
 }
 
-/// Added mass [kg] of a flat end moving along its axis, on the mass of water in a hemisphere over it.
-inline double added_mass_end(double density, double coefficient, double radius) {
-  return coefficient * density * 2.0 / 3.0 * pi * radius * radius * radius;
+/// Added mass [kg] of a flat end moving along its axis, on the mass of water in a hemisphere over it; of its radius, R^3 [m3].
+inline double added_mass_end(double density, double coefficient, double cube) {
+  return coefficient * density * 2.0 / 3.0 * pi * cube;
 }
 
 /// Cross product as a matrix: cross_matrix(a) b = a x b.

@@ -25,21 +25,16 @@ Coefficients coefficients_of(const std::string& cylinder, const SeaOptions& opti
   return c;
 }
 
-std::vector<Strip> strips_of(const SeaBody& body, const SeaOptions& options) {
-  std::vector<Strip> strips;
+/// Ends of a body's cylinders, start and end of each in turn.
+std::vector<EndDisc> discs_of(const SeaBody& body, const std::vector<Coefficients>& coefficients) {
+  std::vector<EndDisc> discs;
   for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
-    const Cylinder& shape = body.cylinders[i].shape;
-    std::vector<Cylinder> others;
-    for (std::size_t j = 0; j < body.cylinders.size(); ++j)
-      if (j != i) others.push_back(body.cylinders[j].shape);
-    const double touching = 1e-6 * shape.length();
-    // The hydrostatic model needs the exact volume only: one strip.
-    const double longest = options.model != "hydrostatic" ? options.strip_length_m : shape.length();
-    append_strips(shape, coefficients_of(body.cylinders[i].name, options),
-                  exposed_area(shape.start, shape.start_radius, others, touching),
-                  exposed_area(shape.end, shape.end_radius, others, touching), longest, strips);
+    const Cylinder& c = body.cylinders[i].shape;
+    const Coefficients& k = coefficients[i];
+    discs.push_back({c.start, -c.axis(), c.start_radius, k.axial_drag[0], k.axial_added_mass[0]});
+    discs.push_back({c.end, c.axis(), c.end_radius, k.axial_drag[1], k.axial_added_mass[1]});
   }
-  return strips;
+  return discs;
 }
 
 /// Earth-frame state of the body that every strip needs.
@@ -91,49 +86,56 @@ Matrix6 matrix_of(const std::vector<std::array<double, 6>>& rows) {
   return m;
 }
 
-/// Drag alone: the inertia of a body in potential flow is not that of its strips.
-void add_drag(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
-              SeaLoads& loads) {
-  for (const Station& s : std::span(strip.stations).first(strip.count)) {
-    if (s.volume <= 0.0) continue;
-    const Eigen::Vector3d relative = water.at(s.arm).velocity - body.velocity_at(s.arm);
-    add_at(loads.drag, waves::drag_across(density, c.drag, 2.0 * s.volume / (pi * s.radius), relative, strip.axis), s.arm);
-  }
-  for (std::size_t i = 0; i < strip.ends.size(); ++i)
-    if (const End& e = strip.ends[i]; e.exposed_area > 0.0)
-      add_at(loads.drag,
-             waves::drag_end(density, c.axial_drag[i], e.exposed_area, water.at(e.arm).velocity - body.velocity_at(e.arm),
-                             strip.axis),
-             e.arm);
+void add_end_drag(const ExposedEnd& end, const WettedEnd& wet, double density, const Frame& body, const waves::Kinematics& k,
+                  SeaLoads& loads) {
+  add_at(loads.drag,
+         waves::drag_end(density, end.drag, end.area * wet.share, k.velocity - body.velocity_at(wet.arm),
+                         body.rotation * end.area_normal),
+         wet.arm);
 }
 
-void add_morison(const WettedStrip& strip, const Coefficients& c, double density, const Frame& body, const Water& water,
+/// Drag alone: the inertia of a body in potential flow is not that of its strips.
+void add_drag(const Strip& strip, const WettedStrip& wet, double density, const Frame& body, const Water& water,
+              SeaLoads& loads) {
+  const Coefficients& c = strip.coefficients;
+  for (const Station& s : std::span(wet.stations).first(wet.count)) {
+    if (s.volume <= 0.0) continue;
+    const Eigen::Vector3d relative = water.at(s.arm).velocity - body.velocity_at(s.arm);
+    add_at(loads.drag, waves::drag_across(density, c.drag, 2.0 * s.volume / (pi * s.radius), relative, wet.axis), s.arm);
+  }
+  for (std::size_t i = 0; i < strip.ends.size(); ++i)
+    if (const WettedEnd& e = wet.ends[i]; e.share > 0.0) add_end_drag(strip.ends[i], e, density, body, water.at(e.arm), loads);
+}
+
+void add_morison(const Strip& strip, const WettedStrip& wet, double density, const Frame& body, const Water& water,
                  std::span<const waves::ComponentGroup> scattered, SeaLoads& loads, Matrix6* mass) {
-  const Eigen::Matrix3d along = strip.axis * strip.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  for (const Station& s : std::span(strip.stations).first(strip.count)) {
+  const Coefficients& c = strip.coefficients;
+  const Eigen::Matrix3d along = wet.axis * wet.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
+  for (const Station& s : std::span(wet.stations).first(wet.count)) {
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
     const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
-    add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), strip.axis), s.arm);
+    add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), wet.axis), s.arm);
     if (scattered.empty()) {
       const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
-      add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, strip.axis), s.arm);
+      add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, wet.axis), s.arm);
     } else {
       const Eigen::Vector3d wave = along * k.acceleration + across * water.scattered(s.arm, scattered);
-      add_at(loads.inertia, density * s.volume * wave - added * waves::across(body.centripetal_at(s.arm), strip.axis), s.arm);
+      add_at(loads.inertia, density * s.volume * wave - added * waves::across(body.centripetal_at(s.arm), wet.axis), s.arm);
     }
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
   for (std::size_t i = 0; i < strip.ends.size(); ++i) {
-    const End& e = strip.ends[i];
-    if (e.exposed_area <= 0.0) continue;
+    const WettedEnd& e = wet.ends[i];
+    const ExposedEnd& end = strip.ends[i];
+    if (e.share <= 0.0) continue;
     const waves::Kinematics k = water.at(e.arm);
-    const double disc = pi * e.radius * e.radius;
-    const double added = waves::added_mass_end(density, c.axial_added_mass[i], e.radius) * e.exposed_area / disc;
-    add_at(loads.drag,
-           waves::drag_end(density, c.axial_drag[i], e.exposed_area, k.velocity - body.velocity_at(e.arm), strip.axis), e.arm);
-    add_at(loads.inertia, added * along * (k.acceleration - body.centripetal_at(e.arm)), e.arm);
-    if (mass) waves::add_point_inertia(added * along, e.arm, *mass);
+    add_end_drag(end, e, density, body, k, loads);
+    const Eigen::Vector3d normal = body.rotation * end.cube_normal;
+    const Eigen::Matrix3d added =
+        waves::added_mass_end(density, end.added_mass, end.cube) * e.share * normal * normal.transpose();
+    add_at(loads.inertia, added * (k.acceleration - body.centripetal_at(e.arm)), e.arm);
+    if (mass) waves::add_point_inertia(added, e.arm, *mass);
   }
 }
 
@@ -146,7 +148,7 @@ EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& wa
       strips_load_(options.model == "morison" || options.model == "potential") {
   if (strips_load_) waves_ = WaveField(waves, environment);
   for (const SeaBody& body : bodies) {
-    BodyStrips own{options.model == "none" ? std::vector<Strip>{} : strips_of(body, options), {}, {}, {}};
+    BodyStrips own = options.model == "none" ? BodyStrips{} : strips_of(body, options);
     scatter(own.strips);
     if (options.potential && options.potential->body == body.name)
       own.potential.emplace(*options.potential, environment, body.initial, waves_.components(), step_s);
@@ -162,6 +164,43 @@ EngineeringSea::EngineeringSea(const SeaOptions& options, const WavesOptions& wa
     }
     bodies_.push_back(std::move(own));
   }
+}
+
+EngineeringSea::BodyStrips EngineeringSea::strips_of(const SeaBody& body, const SeaOptions& options) const {
+  BodyStrips own;
+  std::vector<Coefficients> coefficients;
+  for (const NamedCylinder& c : body.cylinders) coefficients.push_back(coefficients_of(c.name, options));
+  const std::vector<EndDisc> discs = discs_of(body, coefficients);
+  std::vector<ExposedEnd> ends(discs.size());
+  const auto length = [&](std::size_t disc) { return body.cylinders[disc / 2].shape.length(); };
+  for (std::size_t n = 0; n < discs.size(); ++n) {
+    std::vector<EndDisc> sharing;
+    bool counts = true;  // the widest of those that share a point, and of these the first
+    for (std::size_t m = 0; m < discs.size(); ++m) {
+      if ((discs[m].centre - discs[n].centre).norm() > 1e-6 * std::max(length(m), length(n))) continue;
+      sharing.push_back(discs[m]);
+      counts = counts && (m < n ? discs[m].radius < discs[n].radius : discs[m].radius <= discs[n].radius);
+    }
+    if (!counts) continue;
+    const double over_bed = body.initial.point(discs[n].centre).z() + environment_.water_depth;
+    if (over_bed > 1e-6 * std::max(1.0, environment_.water_depth)) {
+      ends[n] = exposed_end(sharing);
+      continue;
+    }
+    Foot foot{discs[n].centre, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (const EndDisc& d : sharing) {
+      const double area = pi * d.radius * d.radius;
+      foot.area += area * d.normal, foot.second_moment += 0.25 * area * d.radius * d.radius * d.normal;
+    }
+    own.feet.push_back(foot);
+  }
+  for (std::size_t i = 0; i < body.cylinders.size(); ++i) {
+    const Cylinder& shape = body.cylinders[i].shape;
+    // The hydrostatic model needs the exact volume only: one strip.
+    const double longest = options.model != "hydrostatic" ? options.strip_length_m : shape.length();
+    append_strips(shape, coefficients[i], {ends[2 * i], ends[2 * i + 1]}, longest, own.strips);
+  }
+  return own;
 }
 
 Eigen::Vector3d SteadyCurrent::at(double z) const {
@@ -183,6 +222,18 @@ void EngineeringSea::scatter(std::vector<Strip>& strips) {
     const auto known = std::ranges::find(scattering_radii_, radius);
     strip.scattered = int(known - scattering_radii_.begin());
     if (known == scattering_radii_.end()) scattering_radii_.push_back(radius), scattered_.push_back(waves_.scattered(radius));
+  }
+}
+
+void EngineeringSea::unload_feet(double t, const BodyStrips& own, const Motion& motion, bool waves, SeaLoads& loads) const {
+  const double weight = environment_.water_density * environment_.gravity;
+  for (const Foot& foot : own.feet) {
+    const Eigen::Vector3d arm = motion.attitude * foot.arm, area = motion.attitude * foot.area, at = motion.position + arm;
+    add_at(loads.buoyancy, weight * std::max(0.0, -at.z()) * area, arm);
+    loads.buoyancy.moment -= weight * Eigen::Vector3d::UnitZ().cross(motion.attitude * foot.second_moment);
+    if (!waves || waves_.still()) continue;
+    const double pressure = waves_.kinematics(t, at, elevation(at.x(), at.y(), t)).pressure_over_density;
+    add_at(loads.inertia, environment_.water_density * pressure * area, arm);
   }
 }
 
@@ -214,9 +265,9 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
     if (part.wetted.volume <= 0.0) continue;
     const Water water{waves_, current_, body, surface, t};
     if (own.potential)
-      add_drag(part, strip.coefficients, environment_.water_density, body, water, loads);
+      add_drag(strip, part, environment_.water_density, body, water, loads);
     else
-      add_morison(part, strip.coefficients, environment_.water_density, body, water,
+      add_morison(strip, part, environment_.water_density, body, water,
                   strip.scattered < 0 ? std::span<const waves::ComponentGroup>() : scattered_[std::size_t(strip.scattered)],
                   loads, mass);
   }
@@ -227,6 +278,8 @@ SeaLoads EngineeringSea::body_loads(double t, const BodyStrips& own, const Motio
   const double weight = environment_.water_density * environment_.gravity;
   loads.buoyancy.force.z() = weight * wet.volume;
   loads.buoyancy.moment = weight * wet.first_moment.cross(Eigen::Vector3d::UnitZ());
+  if (!(own.potential && own.potential->linear_hydrostatics()))
+    unload_feet(t, own, motion, strips_load_ && !own.potential, loads);
   for (const Damping& d : own.damping) {
     const Eigen::Vector3d velocity = body.rotation.transpose() * body.velocity_at(body.rotation * d.arm);
     add_at(loads.damping, body.rotation * -d.force.cwiseProduct(velocity), body.rotation * d.arm);

@@ -86,8 +86,13 @@ class EngineeringSea {
     Eigen::Vector3d point;  ///< body axes
     Matrix6 stiffness, damping, quadratic_damping;
   };
+  /// Ends on the bed, which no water is under: sums over them of A n, and of R^4 n pi / 4, for the pressure's moment.
+  struct Foot {
+    Eigen::Vector3d arm, area, second_moment;  ///< body axes
+  };
   struct BodyStrips {
     std::vector<Strip> strips;
+    std::vector<Foot> feet;
     std::vector<Damping> damping;
     std::vector<Matrices> matrices;
     std::optional<PotentialBody> potential;
@@ -95,6 +100,9 @@ class EngineeringSea {
   };
   /// Waves scattered at the radius of each strip that diffracts; equal radii share them.
   void scatter(std::vector<Strip>& strips);
+  BodyStrips strips_of(const SeaBody& body, const SeaOptions& options) const;
+  /// Takes the water's pressure from the feet: of still water, with `waves` also theirs.
+  void unload_feet(double t, const BodyStrips& own, const Motion& motion, bool waves, SeaLoads& loads) const;
   SeaLoads body_loads(double t, const BodyStrips& body, const Motion& motion, Matrix6* mass) const;
 
   SeaEnvironment environment_;

@@ -31,26 +31,33 @@ Interval below_water(double start, double end) {
 
 }  // namespace
 
-void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, double start_exposed_area, double end_exposed_area,
+ExposedEnd exposed_end(std::span<const EndDisc> discs) {
+  constexpr double covered = 1e-9;  // what is left of discs that cover each other but for round-off
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero(), cubes = Eigen::Vector3d::Zero();
+  double square = 0.0, cube = 0.0, drag = 0.0, added_mass = 0.0;
+  ExposedEnd end;
+  for (const EndDisc& d : discs) {
+    const double r2 = d.radius * d.radius, r3 = r2 * d.radius;
+    squares += r2 * d.normal, cubes += r3 * d.normal;
+    square += r2, cube += r3, drag += r2 * d.drag, added_mass += r3 * d.added_mass;
+    end.radius = std::max(end.radius, d.radius);
+  }
+  if (const double n = squares.norm(); n > covered * square) end.area = pi * n, end.area_normal = squares / n;
+  if (const double n = cubes.norm(); n > covered * cube) end.cube = n, end.cube_normal = cubes / n;
+  if (square > 0.0) end.drag = drag / square, end.added_mass = added_mass / cube;
+  return end;
+}
+
+void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, const std::array<ExposedEnd, 2>& ends,
                    double longest, std::vector<Strip>& strips) {
   const int count = std::max(1, int(std::ceil(cylinder.length() / longest * (1.0 - 1e-12))));
   for (int i = 0; i < count; ++i) {
     const double from = double(i) / count, to = double(i + 1) / count;
     strips.push_back({{cylinder.at(from), cylinder.at(to), cylinder.radius(from), cylinder.radius(to)},
                       coefficients,
-                      i == 0 ? start_exposed_area : 0.0,
-                      i + 1 == count ? end_exposed_area : 0.0,
+                      {i == 0 ? ends[0] : ExposedEnd{}, i + 1 == count ? ends[1] : ExposedEnd{}},
                       -1});
   }
-}
-
-double exposed_area(const Eigen::Vector3d& centre, double radius, const std::vector<Cylinder>& others, double tolerance) {
-  double area = pi * radius * radius;
-  for (const Cylinder& other : others) {
-    if ((other.start - centre).norm() <= tolerance) area -= pi * other.start_radius * other.start_radius;
-    if ((other.end - centre).norm() <= tolerance) area -= pi * other.end_radius * other.end_radius;
-  }
-  return std::max(0.0, area);
 }
 
 waves::Wetted wetted_part(const Cylinder& shape, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
@@ -67,8 +74,8 @@ WettedStrip wetted_strip(const Strip& strip, const Eigen::Vector3d& start, const
   const double rise = surface.normal.dot(out.axis), lean = (surface.normal - rise * out.axis).norm();
   const double start_radius = strip.shape.start_radius, end_radius = strip.shape.end_radius;
   const double start_height = surface.height(start), end_height = surface.height(end);
-  out.ends[0] = {start, strip.start_exposed_area * wet_share(start_height, lean, start_radius), start_radius};
-  out.ends[1] = {end, strip.end_exposed_area * wet_share(end_height, lean, end_radius), end_radius};
+  const auto share = [&](const ExposedEnd& e, double height) { return e.exposed() ? wet_share(height, lean, e.radius) : 0.0; };
+  out.ends = {WettedEnd{start, share(strip.ends[0], start_height)}, WettedEnd{end, share(strip.ends[1], end_height)}};
 
   // Two Gauss points where cross-sections are wholly wet and two where they are partly wet share the exact volume in proportion
   // to their wet cross-sections. (Two over both together put the points of an upright float 0.15 m too high in the paper's wave.)

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <vector>
 
 #include "kernels/rigid/shapes.hpp"
@@ -18,36 +19,50 @@ struct Coefficients {
   bool diffracts = false;                              ///< as MacCamy and Fuchs have it
 };
 
-/// A slice of a cylinder, body axes from the centre of mass. An end that continues in another strip or member has exposed area 0.
+/// The flat end of a cylinder.
+struct EndDisc {
+  Eigen::Vector3d centre, normal;  ///< body axes; out of the cylinder
+  double radius, drag, added_mass;
+};
+
+/// What water meets of the ends that share a point: sums over them, R^2 and R^3 along their normals n.
+struct ExposedEnd {
+  Eigen::Vector3d area_normal = Eigen::Vector3d::Zero(), cube_normal = Eigen::Vector3d::Zero();  ///< units, body axes
+  double area = 0.0, cube = 0.0;        ///< |sum pi R^2 n| [m2], |sum R^3 n| [m3]
+  double radius = 0.0;                  ///< of the widest [m]
+  double drag = 0.0, added_mass = 0.0;  ///< coefficients
+  bool exposed() const { return area > 0.0 || cube > 0.0; }
+};
+ExposedEnd exposed_end(std::span<const EndDisc> sharing_a_point);
+
+/// A slice of a cylinder, body axes from the centre of mass. An end that continues in another strip, or that another strip counts
+/// where several share a point, is not exposed.
 struct Strip {
   Cylinder shape;
   Coefficients coefficients;
-  double start_exposed_area = 0.0, end_exposed_area = 0.0;  ///< [m2]
-  int scattered = -1;                                       ///< of EngineeringSea's waves scattered at a radius; -1: none
+  std::array<ExposedEnd, 2> ends;
+  int scattered = -1;  ///< of EngineeringSea's waves scattered at a radius; -1: none
 };
 
-/// Cuts a cylinder into strips no longer than `longest` [m]; the exposed areas belong to its own two ends.
-void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, double start_exposed_area, double end_exposed_area,
+/// Cuts a cylinder into strips no longer than `longest` [m]; the exposed ends are those of the whole cylinder.
+void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, const std::array<ExposedEnd, 2>& ends,
                    double longest, std::vector<Strip>& strips);
-
-/// What remains in the water of an end disc where other cylinders of the body join it: its area less theirs, at least 0 [m2].
-double exposed_area(const Eigen::Vector3d& centre, double radius, const std::vector<Cylinder>& others, double tolerance);
 
 /// A piece of a strip that counts as one point: its arm from the centre of mass [m], its wetted volume [m3], its radius [m].
 struct Station {
   Eigen::Vector3d arm;
   double volume, radius;
 };
-struct End {
+struct WettedEnd {
   Eigen::Vector3d arm;
-  double exposed_area, radius;  ///< wetted part of the exposed area [m2]
+  double share;  ///< of its disc that is under water
 };
 struct WettedStrip {
   Eigen::Vector3d axis;
   waves::Wetted wetted;             ///< first moment about the centre of mass
   std::array<Station, 4> stations;  ///< the first `count`; their volumes add to the wetted volume
   std::size_t count = 0;
-  std::array<End, 2> ends;
+  std::array<WettedEnd, 2> ends;
 };
 
 /// Start and end of the strip as arms from the centre of mass in earth axes; the plane in the same axes.

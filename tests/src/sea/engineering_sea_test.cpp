@@ -28,10 +28,10 @@ SeaBody spar(double keel, double top, double radius) {
   return {"spar", {}, {{"column", {{0, 0, keel}, {0, 0, top}, radius, radius}}}};
 }
 
-/// The paper's platform (Leble & Barakos 2016, Table 3 and derived geometry): centre of mass of the whole turbine z above the
-/// keel.
+/// The paper's platform (Leble & Barakos 2016, Table 3 and derived geometry), described about where it floats: centre of mass of
+/// the whole turbine z above the keel.
 SeaBody platform(double centre_above_keel) {
-  SeaBody body{"platform", {}, {}};
+  SeaBody body{"platform", {.position = {0.0, 0.0, centre_above_keel - 14.5}}, {}};
   for (int i = 0; i < 3; ++i) {
     const double angle = 2.0 * pi / 3.0 * i, x = 46.7 * std::cos(angle), y = 46.7 * std::sin(angle);
     body.cylinders.push_back(
@@ -200,15 +200,69 @@ TEST_CASE("a joint between members is no end, and coefficients may differ by mem
   Motion m = at(0, 0, 0);
   m.velocity = {1, 0, 0};
   CHECK(parts(sea, m).drag.force.x() == Approx(-0.5 * 1025.0 * 6.0 * 8.0));  // of the upper member alone
-  // A wider member below leaves a ring open: 4^2 - 3^2 of 4^2 of the disc.
+  // A wider member below leaves a ring open: 4^2 - 3^2 of the disc, 4^3 - 3^3 of the hemisphere.
   body.cylinders[0].shape.start_radius = body.cylinders[0].shape.end_radius = 4.0;
   options.coefficients.clear();
   CHECK(added_mass(EngineeringSea(options, {}, tank, {body}), at(0, 0, 0))(2, 2) ==
-        Approx(0.64 * 1025.0 * 2.0 / 3.0 * pi * 64.0 * (1.0 + 7.0 / 16.0)));
+        Approx(0.64 * 1025.0 * 2.0 / 3.0 * pi * (64.0 + (64.0 - 27.0))));
   options.axial_added_mass_coefficient = 0.0;
   Motion sinking = at(0, 0, 0);
   sinking.velocity = {0, 0, -1};
   CHECK(parts(EngineeringSea(options, {}, tank, {body}), sinking).drag.force.z() == Approx(0.5 * 1025.0 * pi * (16.0 + 7.0)));
+}
+
+TEST_CASE("ends that share a point at an angle add as vectors", "[sea][fast]") {
+  // A column of radius 3 m down to a pontoon of radius 2 m along x, deep under water: its end looks down, the pontoon's to -x.
+  const SeaBody body{
+      "hull", {}, {{"pontoon", {{0, 0, -20}, {15, 0, -20}, 2.0, 2.0}}, {"column", {{0, 0, 4}, {0, 0, -20}, 3.0, 3.0}}}};
+  SeaOptions options = model("morison");
+  options.drag_coefficient = options.added_mass_coefficient = 0.0;
+  options.axial_drag_coefficient = options.axial_added_mass_coefficient = 1.0;
+  const EngineeringSea sea(options, {}, tank, {body});
+  const Vector3d area(-4.0 * pi, 0, -9.0 * pi), cube(-8.0, 0, -27.0);
+  const Matrix6 mass = added_mass(sea, at(0, 0, 0));
+  const double hemisphere = 1025.0 * 2.0 / 3.0 * pi;
+  CHECK(mass(2, 2) == Approx(hemisphere * 27.0 * 27.0 / cube.norm()));
+  CHECK(mass(0, 2) == Approx(hemisphere * 8.0 * 27.0 / cube.norm()));
+  CHECK(mass(0, 0) == Approx(hemisphere * (64.0 / cube.norm() + 8.0)));  // and the pontoon's far end
+  Motion sinking = at(0, 0, 0);
+  sinking.velocity = {0, 0, -1};
+  const double along = Vector3d(0, 0, -1).dot(area.normalized());
+  const Vector3d drag = -0.5 * 1025.0 * along * along * area;
+  CHECK((parts(sea, sinking).drag.force - drag).norm() < 1e-9 * drag.norm());
+}
+
+TEST_CASE("a pile to the bed has water only on its sides: nothing lifts it, in still water or in waves", "[sea][fast]") {
+  const double radius = 3.0, weight = 1025.0 * 9.81 * pi * radius * radius;
+  for (const char* rung : {"hydrostatic", "morison"}) {
+    const EngineeringSea still(model(rung), {}, tank, {spar(-20.6, 8, radius)});
+    const Wrench w = load(still, at(0, 0, 0));
+    CHECK(w.force.norm() < 1e-9 * weight * 20.6);
+    CHECK(w.moment.norm() < 1e-9 * weight * 20.6 * radius);
+    // A footing that is wider up to -15 m is pressed down on its shoulder.
+    const SeaBody stepped{
+        "spar", {}, {{"footing", {{0, 0, -20.6}, {0, 0, -15}, 5.0, 5.0}}, {"shaft", {{0, 0, -15}, {0, 0, 8}, radius, radius}}}};
+    CHECK(load(EngineeringSea(model(rung), {}, tank, {stepped}), at(0, 0, 0)).force.z() ==
+          Approx(-1025.0 * 9.81 * pi * (25.0 - 9.0) * 15.0));
+  }
+  // Of the pile that ends a metre over the bed the water carries the whole volume.
+  CHECK(load(EngineeringSea(model("morison"), {}, tank, {spar(-19.6, 8, radius)}), at(0, 0, 0)).force.z() ==
+        Approx(weight * 19.6));
+  WavesOptions waves;
+  waves.model = "airy", waves.height_m = 0.1, waves.period_s = 9.0;
+  const EngineeringSea sea(model("morison"), waves, tank, {spar(-20.6, 8, radius)}),
+      over_bed(model("morison"), waves, tank, {spar(-20.5, 8, radius)});
+  double most = 0.0;
+  for (double t = 0.0; t < 9.0; t += 1.5) {
+    CHECK(std::abs(load(sea, at(0, 0, 0), t).force.z()) < 0.01 * weight * 0.05);
+    most = std::max(most, std::abs(load(over_bed, at(0, 0, 0), t).force.z() - weight * 20.5));
+    CHECK(load(sea, at(0, 0, 0), t).force.x() == Approx(load(over_bed, at(0, 0, 0), t).force.x()).epsilon(0.01).margin(10.0));
+  }
+  CHECK(most > 0.5 * weight * 0.05);
+  CHECK(added_mass(sea, at(0, 0, 0))(2, 2) == 0.0);
+  Motion sinking = at(0, 0, 0);
+  sinking.velocity = {0, 0, -1};
+  CHECK(parts(EngineeringSea(model("morison"), {}, tank, {spar(-20.6, 8, radius)}), sinking).drag.force.z() == 0.0);
 }
 
 TEST_CASE("the two ends of a member may differ in drag and added mass", "[sea][fast]") {
