@@ -81,6 +81,17 @@ struct Joint {
   Disc disc;
 };
 
+/// Columns of a row whose names begin so, without those of marine growth, must be 1: the wave's pressure as it is.
+void tell_pressures(const Deck& hd, std::size_t heading, std::size_t line, const std::string& name,
+                    std::vector<std::string>& left_out) {
+  const auto &names = hd.words(heading), &row = hd.words(line);
+  for (std::size_t c = 0; c < std::min(names.size(), row.size()); ++c) {
+    if (names[c].rfind(name, 0) != 0 || names[c].find("MG") != std::string::npos) continue;
+    if (hd.to_number(row[c], line) != 1.0)
+      left_out.push_back(fmt::format("{} {}: the wave's pressure acts whole here, as with 1", names[c], row[c]));
+  }
+}
+
 template <class Value>
 const Value& look_up(const std::map<std::string, Value>& table, const std::string& id, const Deck& file, std::size_t line,
                      const char* what) {
@@ -89,11 +100,25 @@ const Value& look_up(const std::map<std::string, Value>& table, const std::strin
   return it->second;
 }
 
-std::map<std::string, Joint> read_joints(const Deck& hd) {
+/// `loads`: the strips have the waves' loads, not drag alone.
+std::map<std::string, Joint> read_joints(const Deck& hd, bool loads, std::vector<std::string>& left_out) {
   std::map<std::string, Disc> discs;
   const Table axial(hd, {"NAxCoef"});
-  for (std::size_t n = 0; n < axial.count; ++n)
+  for (std::size_t n = 0; n < axial.count; ++n) {
     axial.enter(n, discs, "AxCoefID", Disc{0.5 * axial.not_negative(n, "AxCd"), axial.not_negative(n, "AxCa")});
+    if (loads) tell_pressures(hd, axial.heading, axial.line(n), "AxCp", left_out);
+    const auto given = [&](const char* name, double otherwise) {
+      if (!axial.has(name) || hd.words(axial.line(n)).size() <= hd.column(axial.heading, {name})) return otherwise;
+      return axial.number(n, name);
+    };
+    if (given("AxFDMod", 0.0) != 0.0)
+      left_out.push_back(fmt::format("AxFDMod 1 of axial coefficients {}: ends have drag in both directions here", n + 1));
+    if (given("AxVnCOff", -1.0) > 0.0 && given("AxFDLoFSc", 1.0) != 1.0)
+      left_out.push_back(
+          fmt::format("AxVnCOff and AxFDLoFSc of axial coefficients {}: drag of ends is that of the whole velocity "
+                      "here",
+                      n + 1));
+  }
   std::map<std::string, Joint> joints;
   const Table table(hd, {"NJoints"});
   for (std::size_t n = 0; n < table.count; ++n)
@@ -106,14 +131,19 @@ std::map<std::string, Joint> read_joints(const Deck& hd) {
 /// Coefficients across the members: for all (MCoefMod 1), by depth (2) or of each (3).
 class Coefficients {
  public:
-  explicit Coefficients(const Deck& hd)
+  Coefficients(const Deck& hd, bool loads, std::vector<std::string>& left_out)
       : depths_(hd, {"NCoefDpthCyl", "NCoefDpth"}), members_(hd, {"NCoefMembersCyl", "NCoefMembers"}) {
     for (std::size_t n = 0; n < hd.size(); ++n) {
       if (hd.words(n).empty() || (hd.words(n)[0] != "SimplCd" && hd.words(n)[0] != "SimplCd1")) continue;
       hd.rows(n + 2, 1, 4);
       simple_ = across(hd.to_number(hd.words(n + 2)[0], n + 2), hd.words(n + 2)[2], hd, n + 2);
+      if (loads) tell_pressures(hd, n, n + 2, "SimplCp", left_out);
       break;
     }
+    for (std::size_t n = 0; loads && n < depths_.count; ++n)
+      tell_pressures(hd, depths_.heading, depths_.line(n), "DpthCp", left_out);
+    for (std::size_t n = 0; loads && n < members_.count; ++n)
+      tell_pressures(hd, members_.heading, members_.line(n), "MemberCp", left_out);
   }
   /// Of the member's start (1) and end (2).
   Across of(int mode, const std::string& member, const Eigen::Vector3d& at, char end, std::size_t line) const {
@@ -170,15 +200,15 @@ bool is_true(const std::string& word) { return !word.empty() && std::tolower(sta
 
 }  // namespace
 
-std::vector<Member> read_members(const Deck& hd, double depth, std::vector<std::string>& left_out) {
+std::vector<Member> read_members(const Deck& hd, double depth, bool potential, std::vector<std::string>& left_out) {
   const Table table(hd, {"NMembers"});
   if (table.count == 0) return {};
-  const std::map<std::string, Joint> joints = read_joints(hd);
+  const std::map<std::string, Joint> joints = read_joints(hd, !potential, left_out);
   std::map<std::string, Section> sections;
   const Table sets(hd, {"NPropSetsCyl", "NPropSets"});
   for (std::size_t n = 0; n < sets.count; ++n)
     sets.enter(n, sections, "PropSetID", Section{sets.positive(n, "PropD"), sets.not_negative(n, "PropThck")});
-  const Coefficients coefficients(hd);
+  const Coefficients coefficients(hd, !potential, left_out);
   std::vector<Member> members;
   for (std::size_t n = 0; n < table.count; ++n) {
     const std::size_t line = table.line(n);
@@ -186,6 +216,8 @@ std::vector<Member> read_members(const Deck& hd, double depth, std::vector<std::
     table.number(n, "MemberID");
     if (table.has("MSecGeom") && table.number(n, "MSecGeom") != 1.0)
       hd.fail(line, "is a member of rectangular section; cylinders are known");
+    if (!potential && table.has("MHstLMod") && table.number(n, "MHstLMod") == 0.0)
+      hd.fail(line, "has MHstLMod 0, a member that still water does not lift: cylinders of a scene displace water");
     const double mode = table.number(n, "MCoefMod");
     if (mode != 1.0 && mode != 2.0 && mode != 3.0) hd.fail(line, fmt::format("has MCoefMod {}: 1, 2 and 3 are known", mode));
     bool diffracts = false;

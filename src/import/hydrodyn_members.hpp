@@ -27,7 +27,7 @@ struct Member {
 
 /// Members down to the bed at -depth. An end's drag in HydroDyn is half of a scene's for the same coefficient (a quarter of
 /// density times area, since both ends of a member count), so AxCd is halved.
-std::vector<Member> read_members(const Deck& hydrodyn, double depth, std::vector<std::string>& left_out);
+std::vector<Member> read_members(const Deck& hydrodyn, double depth, bool potential, std::vector<std::string>& left_out);
 
 /// Water or ballast in the filled members, up to its level along their axes, as rigid masses.
 MassSum read_ballast(const Deck& hydrodyn, const std::vector<Member>& members, double water_density);

@@ -28,7 +28,7 @@ std::string ends(const ImportedLine& lowest, const ImportedLine& highest) {
 }
 
 bool on_bed(const ImportedLine& l, const ImportedEnvironment& e) {
-  return !l.at_anchor.empty() || l.anchor.z() <= -e.depth + 1e-6 * e.depth;
+  return l.meets_bed && (!l.at_anchor.empty() || l.anchor.z() <= -e.depth + 1e-6 * e.depth);
 }
 
 std::string bed_keys(const ImportedLine& l, const ImportedEnvironment& e) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "kernels/base/constants.hpp"
 #include "kernels/beam/blade.hpp"
@@ -405,6 +406,7 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
       if (!by_number.count(node)) file.fail(n, fmt::format("names node {}, which is not in the table of nodes", node));
     const Type& t = by_name[w[1]];
     ImportedLine line{{}, {}, length_of(file, n, w[2], w[3], w[4]), t.diameter, t.mass, t.stiffness, t.friction};
+    line.meets_bed = std::none_of(w.begin() + 5, w.end(), [](const auto& flag) { return in_lower_case(flag) == "omit_contact"; });
     const LinePoint &a = by_number.at(w[3]), &b = by_number.at(w[4]);
     if (!place_ends(line, a, b)) return left_out.push_back(not_tied(file, w[0], a, b));
     found.push_back(line);
@@ -438,7 +440,7 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
 }
 
 ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::string>& left_out) {
-  const auto section = [&](std::initializer_list<const char*> words) -> std::size_t {
+  const auto section_if = [&](std::initializer_list<const char*> words) -> std::optional<std::size_t> {
     for (std::size_t n = 0; n < file.size(); ++n) {
       if (!is_rule(file, n)) continue;
       std::string text;
@@ -449,6 +451,10 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
       for (const char* word : words)
         if (text.find(word) != std::string::npos) return n + 1;
     }
+    return std::nullopt;
+  };
+  const auto section = [&](std::initializer_list<const char*> words) {
+    if (const auto found = section_if(words)) return *found;
     file.fail(std::nullopt, fmt::format("has no section {}", *words.begin()));
   };
   struct Type {
@@ -479,12 +485,43 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     if (bending < heading.size() && w.size() > bending && at(bending) != 0.0)
       left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file.file().filename().string(), w[0]));
   });
+  // Points of a body have its axes. Those that are part of the platform or the bed, unturned, are known.
+  struct LineBody {
+    bool known = false;
+    std::string kind;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  };
+  std::map<std::string, LineBody> line_bodies;
+  if (const auto list = section_if({"BODIES", "BODY LIST", "BODY PROPERTIES"}))
+    each_row(file, *list, [&](std::size_t n, const auto& w) {
+      file.rows(n, 1, 8);
+      const std::vector<double> place = [&] {
+        std::vector<double> values;
+        for (std::size_t k = 2; k < 8; ++k) values.push_back(file.to_number(w[k], n));
+        return values;
+      }();
+      const PointKind kind = LinePoint{in_lower_case(w[1]), {}}.kind();
+      line_bodies["body" + w[0]] = {(kind == PointKind::moved || kind == PointKind::fixed) &&
+                                        in_lower_case(w[1]).find("pin") == std::string::npos && place[3] == 0.0 && place[4] == 0.0 &&
+                                        place[5] == 0.0,
+                                    in_lower_case(w[1]),
+                                    {place[0], place[1], place[2]}};
+    });
   std::map<std::string, LinePoint> points;
   const std::size_t table = section({"POINTS", "CONNECTION PROPERTIES", "POINT PROPERTIES"});
   each_row(file, table, [&](std::size_t n, const auto& w) {
     file.rows(n, 1, words_of_point(file, table));
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
-    LinePoint point{in_lower_case(w[1]), free_point(w[0], {at(2), at(3), std::max(at(4), -depth)})};
+    std::string kind = in_lower_case(w[1]);
+    Eigen::Vector3d place(at(2), at(3), at(4));
+    if (const auto body = line_bodies.find(kind); body != line_bodies.end()) {
+      if (!body->second.known)
+        file.fail(
+            n, fmt::format("is a point of {}, which is {}: bodies that move by themselves, or are turned, are not carried over",
+                           w[1], body->second.kind));
+      kind = body->second.kind, place += body->second.at;
+    }
+    LinePoint point{kind, free_point(w[0], {place.x(), place.y(), std::max(place.z(), -depth)})};
     for (std::size_t unused = 5; unused < w.size(); ++unused) at(unused);
     if (point.kind() == PointKind::free) {
       const auto value = [&](const std::vector<std::string>& names) {
@@ -513,8 +550,9 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     for (const std::string& point : {w[a], w[b]})
       if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
     const Type& t = types[w[type]];
-    ImportedLine line{{},     {},          length_of(file, n, w[length], w[a], w[b]), t.diameter,
-                      t.mass, t.stiffness, file.number({"FrictionCoefficient"}, 0.0), t.dynamics};
+    ImportedLine line{{},        {},          length_of(file, n, w[length], w[a], w[b]), t.diameter,
+                      t.mass,    t.stiffness, file.number({"FrictionCoefficient"}, 0.0), true,
+                      t.dynamics};
     const LinePoint &one = points.at(w[a]), &other = points.at(w[b]);
     if (!place_ends(line, one, other)) return left_out.push_back(not_tied(file, w[0], one, other));
     const double given = file.to_number(w[segments], n), least = std::max(2.0, given);

@@ -79,6 +79,7 @@ WrittenTurbine write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const
 struct ImportedLine {
   Eigen::Vector3d anchor, fairlead;
   double length = 0.0, diameter = 0.0, mass_per_m = 0.0, axial_stiffness = 0.0, bed_friction = 0.0;
+  bool meets_bed = true;  ///< false: MAP++'s OMIT_CONTACT
   /// Of MoorDyn's lines, which are dynamic: keys beyond those above, as a scene has them.
   struct Dynamics {
     int segments = 20;

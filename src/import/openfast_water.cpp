@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <optional>
 
 #include "src/import/hydrodyn_members.hpp"
@@ -39,6 +40,15 @@ std::string second_order(DeckImport& run, const Deck& hd, const With& with, cons
   return text;
 }
 
+/// A file of exciting forces that are zero, for waves that act on the strips alone (ExctnMod 0).
+std::string no_excitation(DeckImport& run) {
+  std::ofstream out(run.folder / "no_excitation.3");
+  for (const int period : {100, 1})
+    for (const int heading : {-90, 0, 90, 180}) out << period << " " << heading << " 3 0 0 0 0\n";
+  run.carry("no exciting force of the waves (ExctnMod 0): no_excitation.3 is zero");
+  return "excitation_file = \"no_excitation.3\"\n";
+}
+
 std::string potential_flow(DeckImport& run, const Deck& hd, bool still) {
   const std::filesystem::path root = hd.beside(hd.text({"PotFile"}));
   const auto with = [&](const char* ending) { return std::filesystem::path(root.string() + ending); };
@@ -46,7 +56,13 @@ std::string potential_flow(DeckImport& run, const Deck& hd, bool still) {
   const std::string name = root.filename().string();
   std::string text = fmt::format(
       "\n[sea.potential]\nbody = \"platform\"\nradiation_file = \"{}.1\"\nhydrostatics_file = \"{}.hst\"\n", name, name);
-  if (std::filesystem::exists(with(".3")))
+  const int excitation = hd.integer({"ExctnMod"}, 1), displaced = hd.integer({"ExctnDisp"}, 0);
+  if (excitation == 2) run.leave_out("the state space of the excitation (ExctnMod 2): the .3 file's harmonics instead");
+  if (excitation > 0 && displaced > 0 && !still)
+    run.leave_out(fmt::format("excitation where the body has moved to (ExctnDisp {}): here it is that at its place", displaced));
+  if (excitation == 0) {
+    if (!still) text += no_excitation(run);
+  } else if (std::filesystem::exists(with(".3")))
     run.copy(with(".3")), text += fmt::format("excitation_file = \"{}.3\"\n", name);
   else if (!still)
     run.copy(with(".3"));
@@ -156,25 +172,11 @@ std::string cylinders(const std::vector<Member>& members) {
 }
 
 void refuse_unknown_water(const Deck& hd, const Deck& waves) {
-  waves.require({not_negative("WaveHs"),
-                 angle("WaveDir"),
-                 {"WavePkShp", 0, 7},
-                 {"WaveDirMod", 0, 1},
-                 {"ConstWaveMod", 0, 2},
-                 not_negative("CrestTime"),
-                 not_negative("WvHiCOff"),
-                 not_negative("WvLowCOffD"),
-                 not_negative("WvHiCOffD"),
-                 not_negative("WvLowCOffS"),
-                 not_negative("WvHiCOffS"),
-                 {"CurrMod", 0, 2},
-                 not_negative("CurrSSV0"),
-                 not_negative("CurrNSV0"),
-                 not_negative("CurrNSRef"),
-                 not_negative("CurrDIV"),
-                 angle("CurrSSDir"),
-                 angle("CurrNSDir"),
-                 angle("CurrDIDir")});
+  waves.require({not_negative("WaveHs"),    angle("WaveDir"),           {"WavePkShp", 0, 7},       {"WaveDirMod", 0, 1},
+                 {"ConstWaveMod", 0, 2},    not_negative("CrestTime"),  not_negative("WvHiCOff"),  not_negative("WvLowCOffD"),
+                 not_negative("WvHiCOffD"), not_negative("WvLowCOffS"), not_negative("WvHiCOffS"), {"CurrMod", 0, 2},
+                 {"WaveStMod", 0, 3},       not_negative("CurrSSV0"),   not_negative("CurrNSV0"),  not_negative("CurrNSRef"),
+                 not_negative("CurrDIV"),   angle("CurrSSDir"),         angle("CurrNSDir"),        angle("CurrDIDir")});
   const int model = wave_model(waves);
   if ((model < 0 || model > 7) && model != 10)
     waves.fail(waves.find({"WaveMod"}), fmt::format("WaveMod is {}: 0 to 7, or 1P and a phase, is wanted", model));
@@ -182,6 +184,8 @@ void refuse_unknown_water(const Deck& hd, const Deck& waves) {
   if (model == 2 && waves.integer({"ConstWaveMod"}, 0) != 0) waves.require({positive("CrestHmax")});
   if (waves.integer({"WaveDirMod"}, 0) == 1) waves.require({positive("WaveDirSpread"), {"WaveDirRange", 0, 360}});
   hd.require({{"PotMod", 0, 2},
+              {"ExctnMod", 0, 2},
+              {"ExctnDisp", 0, 2},
               {"RdtnMod", 0, 2},
               not_negative("RdtnTMax"),
               {"NBody", 1, 1e5},
@@ -203,7 +207,7 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density) 
   if (hd.integer({"PotMod"}, 0) == 2) run.leave_out("FIT (PotMod 2)");
   const bool still = wave_model(waves) == 0;
 
-  const std::vector<Member> all = read_members(hd, depth, run.left_out);
+  const std::vector<Member> all = read_members(hd, depth, potential, run.left_out);
   std::string sea = fmt::format("\n[sea]\nmodel = \"{}\"\n", potential ? "potential" : "morison");
   const MassSum ballast = read_ballast(hd, all, water_density);
   const std::string strips = coefficients(run, all, potential, !still);

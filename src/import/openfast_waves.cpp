@@ -24,6 +24,19 @@ std::string spreading(DeckImport& run, const Deck& waves, int model) {
                      waves.number({"WaveDirRange"}));
 }
 
+/// How linear waves reach their surface; waves of second order have one way.
+std::string stretching(DeckImport& run, const Deck& waves, bool second_order) {
+  if (!waves.has("WaveStMod")) return "";
+  constexpr const char* ways[] = {"vertical", "vertical", "extrapolated", "wheeler"};
+  const int kind = waves.integer({"WaveStMod"}, 0);
+  if (kind == 0)
+    run.leave_out(fmt::format("waves that end at still water (WaveStMod 0): here they load members up to the surface{}",
+                              second_order ? "" : ", with the motion of still water's level above it"));
+  else if (second_order && kind != 2)
+    run.leave_out(fmt::format("stretching of waves of second order (WaveStMod {}): here they are extrapolated", kind));
+  return second_order ? "" : fmt::format("stretching = \"{}\"\n", ways[kind]);
+}
+
 /// WaveMod 5: an elevation in time, in two columns after lines of heading.
 std::string waves_of_file(DeckImport& run, const Deck& waves) {
   const Deck file(waves.beside(waves.text({"WvKinFile"}) + ".Elev"), '!');
@@ -44,7 +57,7 @@ std::string waves_of_file(DeckImport& run, const Deck& waves) {
                                  waves.number({"WaveDir"}, 0.0));
   if (const double highest = waves.number({"WvHiCOff"}, 0.0); highest > 0.0)
     text += fmt::format("highest_Hz = {:.9g}\n", highest / (2.0 * pi));
-  return text + spreading(run, waves, 5);
+  return text + stretching(run, waves, false) + spreading(run, waves, 5);
 }
 
 /// SeaState has waves at differences and at sums of frequencies by a switch each, and of them a band; a scene has all or none.
@@ -119,7 +132,7 @@ std::string import_waves(DeckImport& run, const Deck& waves, const std::string& 
       text += fmt::format("peak_enhancement = {:.9g}\n", peak);
     run.leave_out("the phases of the irregular waves: those of the seed are others than HydroDyn's");
   }
-  text += bound + spreading(run, waves, model);
+  text += bound + stretching(run, waves, !bound.empty()) + spreading(run, waves, model);
   if (const int kind = waves.integer({"ConstWaveMod"}, 0); kind != 0 && model == 2) {
     if (kind != 1) run.leave_out("the trough of the constrained wave (ConstWaveMod 2): half of CrestHmax is its crest");
     text += fmt::format("crest_height_m = {:.9g}\ncrest_time_s = {:.9g}\ncrest_place_m = [{:.9g}, {:.9g}]\n",

@@ -19,6 +19,7 @@
 #include "src/coupling/start.hpp"
 #include "src/scene/document.hpp"
 #include "src/scene/error.hpp"
+#include "src/sea/wamit.hpp"
 
 using namespace spindrift;
 
@@ -460,6 +461,68 @@ TEST_CASE("settings of a deck that the scene has not, and that change its loads,
     CHECK_FALSE(has_word(same.import().left_out, word));
   same.replace("ed.dat", "3 BlPitch(3)", "5 BlPitch(3)");
   CHECK(has_word(same.import().left_out, "BlPitch(3)"));
+}
+
+TEST_CASE("settings of HydroDyn and SeaState that the scene has not are told, and waves reach the surface as in the deck",
+          "[import][fast]") {
+  SmallDeck deck;
+  const std::vector<std::string> plain = deck.import().left_out;
+  for (const char* word : {"AxCp", "SimplCp", "AxFDMod", "AxVnCOff", "ExctnDisp", "ExctnMod", "WaveStMod"})
+    CHECK_FALSE(has_word(plain, word));
+  for (const auto& [number, way] : {std::pair{"1", "vertical"}, std::pair{"2", "extrapolated"}, std::pair{"3", "wheeler"}}) {
+    SmallDeck stretched;
+    stretched.files["sea.dat"] += std::string(number) + " WaveStMod\n";
+    CHECK(stretched.scenario().waves.stretching == way);
+    CHECK_FALSE(has_word(stretched.import().left_out, "WaveStMod"));
+  }
+  deck.files["sea.dat"] += "0 WaveStMod\n";
+  deck.replace("hd.dat", "1 NBody", "1 ExctnMod\n2 ExctnDisp\n1 NBody");
+  deck.replace("hd.dat", "AxCp\n(-) (-) (-) (-)\n1 0.5 0 1\n",
+               "AxCp AxFDMod AxVnCOff AxFDLoFSc\n(-) (-) (-) (-) (-) (Hz) (-)\n"
+               "1 0.5 0 0 1 0.1 0.5\n");
+  deck.replace("hd.dat", "SimplCaMG\n(-) (-) (-) (-)\n0.7 0 0.9 0\n",
+               "SimplCaMG SimplCp SimplCpMG\n(-) (-) (-) (-) (-) (-)\n"
+               "0.7 0 0.9 0 0 0\n");
+  for (const char* word : {"ExctnDisp 2", "WaveStMod 0", "AxFDMod 1", "AxVnCOff"}) CHECK(has_word(deck.import().left_out, word));
+  CHECK_FALSE(has_word(deck.import().left_out, "Cp"));  // strips have drag alone
+  deck.replace("hd.dat", "1 PotMod", "0 PotMod");
+  for (const char* word : {"AxCp 0", "SimplCp 0"}) CHECK(has_word(deck.import().left_out, word));
+}
+
+TEST_CASE("a deck without excitation has none in the scene, and members that nothing lifts are refused", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("hd.dat", "1 NBody", "0 ExctnMod\n1 NBody");
+  const coupling::Scenario s = deck.scenario();
+  CHECK(s.sea.potential->excitation_file.find("no_excitation.3") != std::string::npos);
+  CHECK(sea::read_excitation(s.sea.potential->excitation_file, {}).at(0.7, 0.5).norm() == 0.0);
+  deck.replace("hd.dat", "MCoefMod PropPot\n(-) (-) (-) (-) (-) (m) (-) (-)\n1 1 2 1 1 4 1 TRUE",
+               "MCoefMod MHstLMod PropPot\n(-) (-) (-) (-) (-) (m) (-) (-) (-)\n1 1 2 1 1 4 1 0 TRUE");
+  deck.replace("hd.dat", "2 2 3 1 2 4 1 TRUE", "2 2 3 1 2 4 1 1 TRUE");
+  CHECK(deck.refusal().empty());
+  deck.replace("hd.dat", "1 PotMod", "0 PotMod");
+  CHECK_THAT(deck.refusal(), Catch::Contains("MHstLMod 0"));
+}
+
+TEST_CASE("lines of MAP++ that omit contact do not meet the bed", "[import][fast]") {
+  SmallDeck deck;
+  CHECK(deck.scenario().moorings[0].options.bed_contact);
+  deck.replace("map.dat", "1 chain 540 1 2 plot", "1 chain 540 1 2 plot OMIT_CONTACT");
+  CHECK_FALSE(deck.scenario().moorings[0].options.bed_contact);
+}
+
+TEST_CASE("points of a MoorDyn body are where its axes put them, and those of a free body are refused", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("main.fst", "1 CompMooring", "3 CompMooring");
+  deck.files["map.dat"] =
+      "--- LINE TYPES ---\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx\n(-) (m) (kg/m) (N) (N-s/-) (-) (-) (-) (-) (-)\n"
+      "chain 0.1 100 4e8 -1 0 1 1 0 0\n---- BODIES ----\nID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG I Volume CdA Ca\n"
+      "(#) (-) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)\n1 Coupled 0 0 -10 0 0 0 0 0 0 0 0 0\n"
+      "---- POINTS ----\nID Attachment X Y Z M V CdA CA\n(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n"
+      "1 Fixed 500 0 -200 0 0 0 0\n2 Body1 4 0 -20 0 0 0 0\n---- LINES ----\nID LineType AttachA AttachB UnstrLen NumSegs "
+      "Outputs\n(#) (name) (#) (#) (m) (-) (-)\n1 chain 1 2 540 20 -\n---- OPTIONS ----\n0.001 dtM\n";
+  CHECK(deck.scenario().moorings[0].options.fairlead_m->z() == -30.0);
+  deck.replace("map.dat", "1 Coupled 0", "1 Free 0");
+  CHECK_THAT(deck.refusal(), Catch::Contains("map.dat") && Catch::Contains("is a point of Body1, which is free"));
 }
 
 TEST_CASE("uniform wind of a deck blows where file and PropagationDir say, and stays when the file has one row",
@@ -1118,10 +1181,8 @@ TEST_CASE("a word in place of any number that a deck's files are read for is ref
            {"adblade.dat", 100, {}},
            {"foil.dat", 80, {}},
            {"sea.dat", 20, {}},
-           // AxCp, JointOvrlp and what marine growth changes
-           {"hd.dat",
-            400,
-            {"1 in '1 0.5 0 1'", "0 in '1 0 0 -80 1 0'", "0 in '2 0 0 -5 1 0'", "0 in '3 0 0 10 1 0'", "0 in '0.7 0 0.9 0'"}}}) {
+           // JointOvrlp and what marine growth changes
+           {"hd.dat", 400, {"0 in '1 0 0 -80 1 0'", "0 in '2 0 0 -5 1 0'", "0 in '3 0 0 10 1 0'", "0 in '0.7 0 0.9 0'"}}}) {
     const Swept swept = sweep(deck, c.file);
     CAPTURE(c.file);
     CHECK(swept.refused >= c.least);
