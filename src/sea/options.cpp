@@ -83,7 +83,8 @@ const Section<PotentialOptions>& potential_section() {
           .path("excitation_file", &PotentialOptions::excitation_file,
                 "Wave exciting forces, NAME.3; needed where there are waves.")
           .path("hydrostatics_file", &PotentialOptions::hydrostatics_file,
-                "Hydrostatic stiffness, NAME.hst; where absent, exact buoyancy of the body's cylinders.")
+                "Hydrostatic stiffness of the water alone, NAME.hst of a run with the centre of mass at the files' origin: the "
+                "body's mass has its weight; where absent, exact buoyancy of the body's cylinders.")
           .number("length_m", &PotentialOptions::length_m, "m", "ULEN, with which the files are made dimensional.",
                   scene::positive())
           .vector("point_m", &PotentialOptions::point_m, "m", "Origin of the files' axes, initial earth coordinates.")
