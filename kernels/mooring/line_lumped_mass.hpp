@@ -141,6 +141,17 @@ struct LineLumpedMass {
     return tension > 0.0 ? Eigen::Vector3d(tension / l * span) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 
+  /// Share of a piece that is under water. `middle`: height of its middle above its node [m].
+  double wet_share(double piece, const Eigen::Vector3d& tangent, const Eigen::Vector3d& node, double surface,
+                   double middle) const {
+    const double height = std::max(piece * std::abs(tangent.z()), diameter);
+    return std::clamp(0.5 + (surface - node.z() - middle) / height, 0.0, 1.0);
+  }
+  /// Height of the middle of the half segment at an end above the end [m].
+  double half_segment_middle(int end, const Eigen::Vector3d& tangent) const {
+    return (end == 0 ? 0.25 : -0.25) * segment() * tangent.z();
+  }
+
   /// What loads a piece of line but its neighbours, and its inertia across and along `tangent`. `middle`: height of its middle
   /// above the node [m].
   struct NodeLoad {
@@ -149,8 +160,8 @@ struct LineLumpedMass {
   };
   NodeLoad node_load(double piece, const Eigen::Vector3d& tangent, const LineEnd& node, const LineWater& water,
                      double middle = 0.0) const {
-    const double displaced = water_density * area() * piece, height = std::max(piece * std::abs(tangent.z()), diameter);
-    const double wet = std::clamp(0.5 + (water.surface - node.position.z() - middle) / height, 0.0, 1.0);
+    const double displaced = water_density * area() * piece;
+    const double wet = wet_share(piece, tangent, node.position, water.surface, middle);
     NodeLoad load{Eigen::Vector3d(0.0, 0.0, (wet * displaced - mass_per_m * piece) * gravity), mass_per_m * piece,
                   mass_per_m * piece};
     if (wet > 0.0) {
@@ -171,11 +182,11 @@ struct LineLumpedMass {
     for (const LineClump& c : clumps) {
       if (c.node != i) continue;
       const double height = std::max(std::cbrt(c.volume), diameter);
-      const double displaced =
-          water_density * c.volume * std::clamp(0.5 + (water.surface - node.position.z()) / height, 0.0, 1.0);
+      const double wet = std::clamp(0.5 + (water.surface - node.position.z()) / height, 0.0, 1.0);
+      const double displaced = wet * water_density * c.volume;
       const Eigen::Vector3d relative = water.velocity - node.velocity;
       load.force.z() += (displaced - c.mass) * gravity;
-      load.force += 0.5 * water_density * c.drag_area * relative.norm() * relative;
+      load.force += 0.5 * water_density * wet * c.drag_area * relative.norm() * relative;
       load.force += displaced * (1.0 + c.added_mass) * water.acceleration;
       load.mass_across += c.mass + c.added_mass * displaced, load.mass_along += c.mass + c.added_mass * displaced;
     }
@@ -217,7 +228,7 @@ struct LineLumpedMass {
     }
     const auto end = [&](int i, const LineEnd& e) {
       const Eigen::Vector3d q = tangent(nodes, i);
-      return node_load(0.5 * l0, q, e, water(i, e.position), (i == 0 ? 0.25 : -0.25) * l0 * q.z()).force;
+      return node_load(0.5 * l0, q, e, water(i, e.position), half_segment_middle(i, q)).force;
     };
     LineForces f;
     f.on_fairlead = end(segments, ends.fairlead) - scratch.pull.back();
@@ -226,12 +237,14 @@ struct LineLumpedMass {
     return f;
   }
 
-  /// Inertia [kg] of the half segment at an end of this direction, wet.
-  Eigen::Matrix3d end_mass(const Eigen::Vector3d& tangent) const {
-    const double piece = 0.5 * segment(), displaced = water_density * area() * piece;
+  /// Inertia [kg] of the half segment at an end, node 0 or N, with the water's as far as it is wet.
+  Eigen::Matrix3d end_mass(const Nodes& nodes, int end, double surface) const {
+    const Eigen::Vector3d q = tangent(nodes, end);
+    const double piece = 0.5 * segment(), wet = wet_share(piece, q, nodes.position(end), surface, half_segment_middle(end, q)),
+                 displaced = wet * water_density * area() * piece;
     const double across = mass_per_m * piece + normal_added_mass * displaced;
     const double along = mass_per_m * piece + tangential_added_mass * displaced;
-    return across * Eigen::Matrix3d::Identity() + (along - across) * tangent * tangent.transpose();
+    return across * Eigen::Matrix3d::Identity() + (along - across) * q * q.transpose();
   }
 
   /// Nodes on the catenary between the ends, without velocity: a first guess of their rest.

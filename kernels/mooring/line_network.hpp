@@ -131,7 +131,8 @@ struct LineNetwork {
       const auto add = [&](int j, const Eigen::Vector3d& force, int node) {
         if (j == led) return;
         scratch.on[std::size_t(j)] += force;
-        scratch.inertia[std::size_t(j)] += line.end_mass(line.tangent({line, e, nodes}, node));
+        const LineLumpedMass::Nodes row{line, e, nodes};
+        scratch.inertia[std::size_t(j)] += line.end_mass(row, node, around(node, row.position(node)).surface);
       };
       add(lines[l].anchor, f.on_anchor, 0), add(lines[l].fairlead, f.on_fairlead, line.segments);
       scratch.forces[l] = f, first += line.state_size();

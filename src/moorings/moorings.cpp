@@ -193,10 +193,11 @@ void Moorings::add_added_mass(std::span<const Motion> bodies, std::span<Eigen::M
       const LineLumpedMass& model = line.dynamic->line;
       const LineEnds e = Recalled{std::span(memory_).subspan(line.dynamic->header)}.line_ends();
       const LineLumpedMass::Nodes nodes{model, e, std::span(memory_).subspan(first, model.state_size())};
+      constexpr double still_water = 0.0;
       const auto add = [&](const End& end, int node) {
         if (end.body < 0) return;
         const Eigen::Vector3d arm = bodies[end.body].point(end.point) - bodies[end.body].position;
-        waves::add_point_inertia(model.end_mass(model.tangent(nodes, node)), arm, masses[end.body]);
+        waves::add_point_inertia(model.end_mass(nodes, node, still_water), arm, masses[end.body]);
       };
       add(line.fairlead, model.segments);
       add(line.anchor, 0);

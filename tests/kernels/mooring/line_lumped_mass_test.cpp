@@ -277,6 +277,29 @@ TEST_CASE("a line hanging in a current takes the drag of its chord", "[mooring][
   CHECK(f.on_fairlead.x() + f.on_anchor.x() == Approx(drag).epsilon(0.02));
 }
 
+TEST_CASE("out of the water a line has neither drag nor added mass, nor have its clumps and its ends", "[mooring][fast]") {
+  LineLumpedMass line;
+  line.length = 20.0, line.segments = 4, line.diameter = 0.2, line.mass_per_m = 300.0, line.axial_stiffness = 1e8;
+  line.bed.contact = false, line.clumps = {{.node = 2, .mass = 500.0, .volume = 0.3, .drag_area = 2.0}};
+  const auto stream = [](double, const Vector3d&) { return LineWater{{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.0}; };
+  for (const double low : {5.0, -30.0}) {
+    const LineEnds ends{{{0, 0, low}, Vector3d::Zero()}, {{0, 0, low + 20.01}, Vector3d::Zero()}};
+    std::vector<double> state(line.state_size()), rate(line.state_size());
+    line.lay_as_catenary(ends, state);
+    LineLumpedMass::Scratch scratch = line.scratch();
+    line.rates(0.0, ends, state, rate, stream, scratch);
+    const double swept = rate[3 * line.inner() + 3];  // along x, of the clump
+    const Eigen::Matrix3d end = line.end_mass({line, ends, state}, line.segments, 0.0);
+    const double dry = 300.0 * 2.5, water = 1025.0 * line.area() * 2.5;
+    CHECK(end(0, 0) == Approx(low > 0.0 ? dry : dry + water));
+    CHECK(end(2, 2) == Approx(dry));
+    if (low > 0.0)
+      CHECK(std::abs(swept) < 1e-9);
+    else
+      CHECK(swept > 1.0);
+  }
+}
+
 TEST_CASE("waves load a line the same in long steps of the bodies as in short ones", "[mooring][fast]") {
   // A wave of 4 m and 8 s in deep water over a chain; the water is asked for three times in a step, whatever its substeps.
   LineLumpedMass line = chain_line({700, 200, 760});
