@@ -502,8 +502,8 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
       }();
       const PointKind kind = LinePoint{in_lower_case(w[1]), {}}.kind();
       line_bodies["body" + w[0]] = {(kind == PointKind::moved || kind == PointKind::fixed) &&
-                                        in_lower_case(w[1]).find("pin") == std::string::npos && place[3] == 0.0 && place[4] == 0.0 &&
-                                        place[5] == 0.0,
+                                        in_lower_case(w[1]).find("pin") == std::string::npos && place[3] == 0.0 &&
+                                        place[4] == 0.0 && place[5] == 0.0,
                                     in_lower_case(w[1]),
                                     {place[0], place[1], place[2]}};
     });
