@@ -39,8 +39,8 @@ struct ControllerDtuState {
   double wind = 0.0;                     ///< filtered [m/s]
   double schedule_pitch = 0.0;           ///< filtered [rad]
   double full_load = 0.0;                ///< 0 partial, 1 full load
-  double torque_integral = 0.0;          ///< [N m]
-  double pitch_integral = 0.0;           ///< [rad]
+  double torque_integral = 0.0;          ///< asked for, less the proportional part [N m]
+  double pitch_integral = 0.0;           ///< the same [rad]
   double torque = 0.0, pitch = 0.0;      ///< asked for [N m], [rad]
 };
 
@@ -57,11 +57,23 @@ inline double filter_first_order(double input, double time_constant, double h, d
   return input + (value - input) * std::exp(-h / time_constant);
 }
 
+/// By which the torque's loop finds the speed off the nearer of its limits.
+inline double torque_speed_error(const ControllerDtu& c, double speed) {
+  return speed - (speed < 0.5 * (c.min_speed + c.rated_speed) ? c.min_speed : c.rated_speed);
+}
+
+/// Factor on the gains of pitch: they fall as torque depends more on pitch.
+inline double pitch_gain_share(const ControllerDtu& c, double schedule_pitch) {
+  return 1.0 / (1.0 + c.schedule_linear * schedule_pitch + c.schedule_quadratic * schedule_pitch * schedule_pitch);
+}
+
 /// The state in which the controller asks for this torque and pitch at this speed and wind and has been doing so.
 inline ControllerDtuState settled(const ControllerDtu& c, double speed, double wind, double pitch, double least_pitch,
                                   double torque) {
   const double full = pitch > least_pitch + c.switch_pitch ? 1.0 : 0.0;
-  return {speed, 0.0, wind, pitch, full, torque, pitch, torque, pitch};
+  const double torque_integral = torque - c.torque_kp * torque_speed_error(c, speed);
+  const double pitch_integral = pitch - pitch_gain_share(c, pitch) * c.pitch_kp * (speed - c.rated_speed);
+  return {speed, 0.0, wind, pitch, full, torque_integral, pitch_integral, torque, pitch};
 }
 
 /// Asks for torque and pitch after a step of h seconds at whose end speed, pitch and wind are measured. `least_pitch(wind)`:
@@ -76,7 +88,9 @@ ControllerDtuState advance(const ControllerDtu& c, ControllerDtuState s, double 
   const double least = least_pitch(s.wind);
   s.full_load = filter_first_order(pitch > least + c.switch_pitch ? 1.0 : 0.0, c.schedule_turns * turn, h, s.full_load);
 
-  // Torque: tracks K omega^2 between the speed limits, a PI loop on the nearer limit within what its bounds leave free.
+  // Each loop's integral is what was asked for within the limits, less the proportional part. So blades begin to pitch below
+  // rated speed, where the speed grows by more than ki / kp of what it lacks per second. Torque: tracks K omega^2 between the
+  // speed limits, a PI loop on the nearer limit within what its bounds leave free.
   const auto open = [](double x, double from, double to) { return smooth_step((x - from) / (to - from)); };
   const double lower = c.min_speed, lower_open = c.min_speed / c.open_share;
   const double upper = (2.0 * c.open_share - 1.0) * c.rated_speed, upper_open = c.open_share * c.rated_speed;
@@ -87,17 +101,15 @@ ControllerDtuState advance(const ControllerDtu& c, ControllerDtuState s, double 
   double least_torque =
       std::min({optimal * open(s.speed, lower, lower_open), c.torque_gain * upper_open * upper_open, most_torque});
   least_torque += s.full_load * (full - least_torque), most_torque += s.full_load * (full - most_torque);
-  const double speed_error = s.speed - (s.speed < 0.5 * (c.min_speed + c.rated_speed) ? c.min_speed : c.rated_speed);
-  s.torque_integral = std::clamp(s.torque_integral + h * c.torque_ki * speed_error, least_torque, most_torque);
-  s.torque = std::clamp(s.torque_integral + c.torque_kp * speed_error, least_torque, most_torque);
+  const double off = torque_speed_error(c, s.speed), torque_part = c.torque_kp * off;
+  s.torque = std::clamp(s.torque_integral + h * c.torque_ki * off + torque_part, least_torque, most_torque);
+  s.torque_integral = s.torque - torque_part;
 
-  // Pitch: a PI loop on rated speed whose gains fall as torque depends more on pitch.
-  const double scheduled =
-      1.0 / (1.0 + c.schedule_linear * s.schedule_pitch + c.schedule_quadratic * s.schedule_pitch * s.schedule_pitch);
-  const double over = s.speed - c.rated_speed;
-  s.pitch_integral = std::clamp(s.pitch_integral + h * scheduled * c.pitch_ki * over, least, c.max_pitch);
-  const double asked = std::clamp(s.pitch_integral + scheduled * c.pitch_kp * over, least, c.max_pitch);
+  // Pitch: a PI loop on rated speed.
+  const double over = s.speed - c.rated_speed, gain = pitch_gain_share(c, s.schedule_pitch), part = gain * c.pitch_kp * over;
+  const double asked = std::clamp(s.pitch_integral + h * gain * c.pitch_ki * over + part, least, c.max_pitch);
   s.pitch = std::clamp(asked, s.pitch - c.max_pitch_rate * h, s.pitch + c.max_pitch_rate * h);
+  s.pitch_integral = s.pitch - part;
   return s;
 }
 

@@ -87,6 +87,38 @@ TEST_CASE("the gains fall with pitch as 1 / (1 + pitch/KK1 + pitch^2/KK2)", "[ro
   CHECK(kick(pitch) == Approx(gain / (1.0 + dtu.schedule_linear * pitch + dtu.schedule_quadratic * pitch * pitch)).epsilon(1e-6));
 }
 
+TEST_CASE("blades pitch before a rotor that a gust drives reaches its rated speed", "[rotor][fast]") {
+  // One mass, power by the cube of the wind, less what tip-speed ratio and pitch are off their best. From 9 to 14 m/s in 5 s.
+  const double h = 0.02, inertia = 1.6e8, rated_wind = 11.4;
+  ControllerDtuState s = settled(dtu, 0.75, 9.0, 0.0, 0.0, dtu.torque_gain * 0.75 * 0.75);
+  double speed = 0.75, most = 0.0, first_pitched_at = 0.0;
+  for (int n = 0; n < int(200.0 / h); ++n) {
+    const double wind = 9.0 + std::clamp(n * h - 100.0, 0.0, 5.0), share = wind / rated_wind;
+    const double off = speed / dtu.rated_speed / share - 1.0;
+    const double torque = dtu.rated_power / speed * share * share * share * (1.0 - off * off - 2.6 * s.pitch);
+    speed += h * (torque - s.torque) / inertia;
+    s = advance(dtu, s, speed, s.pitch, wind, h, no_pitch);
+    most = std::max(most, speed);
+    if (first_pitched_at == 0.0 && s.pitch > 0.0) first_pitched_at = s.speed;
+  }
+  CAPTURE(most / dtu.rated_speed);
+  CHECK(first_pitched_at < 0.98 * dtu.rated_speed);
+  CHECK(most < 1.05 * dtu.rated_speed);
+  CHECK(speed == Approx(dtu.rated_speed).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "at a limit the loop of pitch holds what it may, and leaves it when the speed grows by more than ki / kp of what it lacks",
+    "[rotor][fast]") {
+  const double lack = 0.05, growth = GENERATE(0.8, 1.25), h = 0.01;
+  ControllerDtuState s = settled(dtu, dtu.rated_speed - lack, 9.0, 0.0, 0.0, 1e7);
+  for (int n = 0; n < 500; ++n) s = advance(dtu, s, dtu.rated_speed - lack, 0.0, 9.0, h, no_pitch);
+  REQUIRE(s.pitch == 0.0);
+  s.speed_rate = growth * dtu.pitch_ki / dtu.pitch_kp * lack;
+  s = advance(dtu, s, s.speed + 2.0 * dtu.filter_damping / dtu.filter_frequency * s.speed_rate, 0.0, 9.0, h, no_pitch);
+  CHECK((s.pitch > 0.0) == (growth > 1.0));
+}
+
 TEST_CASE("the servo keeps its limits of rate and acceleration and arrives without much overshoot", "[rotor][fast]") {
   const double h = GENERATE(0.005, 0.05), rate_limit = 0.17, acceleration_limit = 0.26;
   double pitch = 0.0, rate = 0.0, most = 0.0;
