@@ -23,6 +23,7 @@ struct ControllerDtu {
   double pitch_kp = 0.0, pitch_ki = 0.0;      ///< [s], [-]: rad per rad/s, rad per rad
   double schedule_linear = 0.0;               ///< 1/KK1: gains fall by 1 / (1 + pitch / KK1 + pitch^2 / KK2) [1/rad]
   double schedule_quadratic = 0.0;            ///< 1/KK2 [1/rad2]
+  double doubling_speed = 1.3;                ///< over rated, at which the gains of pitch are twice as large
   double max_pitch = 0.5 * pi;                ///< [rad]
   double max_pitch_rate = 0.2;                ///< [rad/s]
   double filter_frequency = 2.5;              ///< of the speed's low-pass filter [rad/s]
@@ -62,9 +63,11 @@ inline double torque_speed_error(const ControllerDtu& c, double speed) {
   return speed - (speed < 0.5 * (c.min_speed + c.rated_speed) ? c.min_speed : c.rated_speed);
 }
 
-/// Factor on the gains of pitch: they fall as torque depends more on pitch.
-inline double pitch_gain_share(const ControllerDtu& c, double schedule_pitch) {
-  return 1.0 / (1.0 + c.schedule_linear * schedule_pitch + c.schedule_quadratic * schedule_pitch * schedule_pitch);
+/// Factor on the gains of pitch: they fall as torque depends more on pitch, and grow above rated speed.
+inline double pitch_gain_share(const ControllerDtu& c, double schedule_pitch, double over) {
+  const double excess = std::max(over, 0.0) / (c.rated_speed * (c.doubling_speed - 1.0));
+  return (1.0 + excess * excess) /
+         (1.0 + c.schedule_linear * schedule_pitch + c.schedule_quadratic * schedule_pitch * schedule_pitch);
 }
 
 /// The state in which the controller asks for this torque and pitch at this speed and wind and has been doing so.
@@ -72,7 +75,7 @@ inline ControllerDtuState settled(const ControllerDtu& c, double speed, double w
                                   double torque) {
   const double full = pitch > least_pitch + c.switch_pitch ? 1.0 : 0.0;
   const double torque_integral = torque - c.torque_kp * torque_speed_error(c, speed);
-  const double pitch_integral = pitch - pitch_gain_share(c, pitch) * c.pitch_kp * (speed - c.rated_speed);
+  const double over = speed - c.rated_speed, pitch_integral = pitch - pitch_gain_share(c, pitch, over) * c.pitch_kp * over;
   return {speed, 0.0, wind, pitch, full, torque_integral, pitch_integral, torque, pitch};
 }
 
@@ -106,7 +109,8 @@ ControllerDtuState advance(const ControllerDtu& c, ControllerDtuState s, double 
   s.torque_integral = s.torque - torque_part;
 
   // Pitch: a PI loop on rated speed.
-  const double over = s.speed - c.rated_speed, gain = pitch_gain_share(c, s.schedule_pitch), part = gain * c.pitch_kp * over;
+  const double over = s.speed - c.rated_speed, gain = pitch_gain_share(c, s.schedule_pitch, over),
+               part = gain * c.pitch_kp * over;
   const double asked = std::clamp(s.pitch_integral + h * gain * c.pitch_ki * over + part, least, c.max_pitch);
   s.pitch = std::clamp(asked, s.pitch - c.max_pitch_rate * h, s.pitch + c.max_pitch_rate * h);
   s.pitch_integral = s.pitch - part;

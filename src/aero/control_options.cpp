@@ -43,6 +43,10 @@ scene::Section<PitchGainOptions> gain_section(const char* name, const char* help
       .number("schedule_linear_deg", &PitchGainOptions::schedule_linear_deg, "deg",
               "KK1: gains fall by 1 / (1 + pitch/KK1 + pitch^2/KK2).", scene::positive())
       .number("schedule_quadratic_deg2", &PitchGainOptions::schedule_quadratic_deg2, "deg2", "KK2.", scene::positive())
+      .number("doubling_speed", &PitchGainOptions::doubling_speed, "-",
+              "Speed over rated speed at which both gains are doubled: above rated they grow by 1 + ((speed/rated - 1) / "
+              "(doubling_speed - 1))^2.",
+              scene::between(1.01, 1000.0))
       .flag("constant_power", &PitchGainOptions::constant_power, "Above rated; false: constant torque.");
 }
 

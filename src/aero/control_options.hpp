@@ -84,6 +84,7 @@ struct ControlOptions {
 struct PitchGainOptions {
   double kp_s = 0.0, ki = 0.0;
   std::optional<double> schedule_linear_deg, schedule_quadratic_deg2;
+  double doubling_speed = 1.3;  ///< over rated
   bool constant_power = true;
 };
 

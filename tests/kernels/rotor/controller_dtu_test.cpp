@@ -87,6 +87,22 @@ TEST_CASE("the gains fall with pitch as 1 / (1 + pitch/KK1 + pitch^2/KK2)", "[ro
   CHECK(kick(pitch) == Approx(gain / (1.0 + dtu.schedule_linear * pitch + dtu.schedule_quadratic * pitch * pitch)).epsilon(1e-6));
 }
 
+TEST_CASE("above rated speed the gains of pitch grow, to twice their value at the speed of doubling", "[rotor][fast]") {
+  const double pitch = 0.2, step = 1e-3, excess = GENERATE(-0.1, 0.1, 0.3), h = 0.02;
+  const auto asked = [&](double share) {  // after a step from the same state
+    ControllerDtuState s = settled(dtu, dtu.rated_speed, 15.0, pitch, 0.0, 1e7);
+    s.speed = share * dtu.rated_speed, s.pitch_integral = 0.5, s.pitch = 0.5;
+    ControllerDtu quick = dtu;
+    quick.max_pitch_rate = 1e3;
+    return advance(quick, s, s.speed, pitch, 15.0, h, no_pitch).pitch - 0.5;
+  };
+  const double gain = (dtu.pitch_kp + dtu.pitch_ki * h) * dtu.rated_speed /
+                      (1.0 + dtu.schedule_linear * pitch + dtu.schedule_quadratic * pitch * pitch);
+  const double grown = excess > 0.0 ? 1.0 + excess * excess / 0.09 : 1.0;
+  CHECK(asked(1.0 + excess) == Approx(gain * grown * excess));
+  CHECK(asked(1.0 + excess + step) > asked(1.0 + excess));
+}
+
 TEST_CASE("blades pitch before a rotor that a gust drives reaches its rated speed", "[rotor][fast]") {
   // One mass, power by the cube of the wind, less what tip-speed ratio and pitch are off their best. From 9 to 14 m/s in 5 s.
   const double h = 0.02, inertia = 1.6e8, rated_wind = 11.4;
