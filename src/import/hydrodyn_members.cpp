@@ -81,13 +81,14 @@ struct Joint {
   Disc disc;
 };
 
-/// Columns of a row whose names begin so, without those of marine growth, must be 1: the wave's pressure as it is.
-void tell_pressures(const Deck& hd, std::size_t heading, std::size_t line, const std::string& name,
+/// Columns of a row whose names begin so, without those of marine growth, must be 1 where strips have the waves' loads: the
+/// wave's pressure as it is.
+void tell_pressures(const Deck& hd, std::size_t heading, std::size_t line, const std::string& name, bool loads,
                     std::vector<std::string>& left_out) {
   const auto &names = hd.words(heading), &row = hd.words(line);
   for (std::size_t c = 0; c < std::min(names.size(), row.size()); ++c) {
     if (names[c].rfind(name, 0) != 0 || names[c].find("MG") != std::string::npos) continue;
-    if (hd.to_number(row[c], line) != 1.0)
+    if (hd.to_number(row[c], line) != 1.0 && loads)
       left_out.push_back(fmt::format("{} {}: the wave's pressure acts whole here, as with 1", names[c], row[c]));
   }
 }
@@ -106,7 +107,7 @@ std::map<std::string, Joint> read_joints(const Deck& hd, bool loads, std::vector
   const Table axial(hd, {"NAxCoef"});
   for (std::size_t n = 0; n < axial.count; ++n) {
     axial.enter(n, discs, "AxCoefID", Disc{0.5 * axial.not_negative(n, "AxCd"), axial.not_negative(n, "AxCa")});
-    if (loads) tell_pressures(hd, axial.heading, axial.line(n), "AxCp", left_out);
+    tell_pressures(hd, axial.heading, axial.line(n), "AxCp", loads, left_out);
     const auto given = [&](const char* name, double otherwise) {
       if (!axial.has(name) || hd.words(axial.line(n)).size() <= hd.column(axial.heading, {name})) return otherwise;
       return axial.number(n, name);
@@ -137,13 +138,13 @@ class Coefficients {
       if (hd.words(n).empty() || (hd.words(n)[0] != "SimplCd" && hd.words(n)[0] != "SimplCd1")) continue;
       hd.rows(n + 2, 1, 4);
       simple_ = across(hd.to_number(hd.words(n + 2)[0], n + 2), hd.words(n + 2)[2], hd, n + 2);
-      if (loads) tell_pressures(hd, n, n + 2, "SimplCp", left_out);
+      tell_pressures(hd, n, n + 2, "SimplCp", loads, left_out);
       break;
     }
-    for (std::size_t n = 0; loads && n < depths_.count; ++n)
-      tell_pressures(hd, depths_.heading, depths_.line(n), "DpthCp", left_out);
-    for (std::size_t n = 0; loads && n < members_.count; ++n)
-      tell_pressures(hd, members_.heading, members_.line(n), "MemberCp", left_out);
+    for (std::size_t n = 0; n < depths_.count; ++n)
+      tell_pressures(hd, depths_.heading, depths_.line(n), "DpthCp", loads, left_out);
+    for (std::size_t n = 0; n < members_.count; ++n)
+      tell_pressures(hd, members_.heading, members_.line(n), "MemberCp", loads, left_out);
   }
   /// Of the member's start (1) and end (2).
   Across of(int mode, const std::string& member, const Eigen::Vector3d& at, char end, std::size_t line) const {

@@ -125,8 +125,9 @@ std::string plain_value(const Parameter& p, const void* options) {
 
 bool holds(const SectionBase& section, const Condition& c, const void* options) {
   const Parameter* on = section.find(c.key);
-  return on && has_effect(section, *on, options) &&
-         std::find(c.values.begin(), c.values.end(), plain_value(*on, options)) != c.values.end();
+  const auto among = [&](const std::string& value) { return std::ranges::find(c.values, value) != c.values.end(); };
+  if (!on || has_effect(section, *on, options)) return on && among(plain_value(*on, options));
+  return on->kind == Kind::flag && among("false");  // what has no effect is switched off
 }
 
 bool has_effect(const SectionBase& section, const Parameter& p, const void* options) {
