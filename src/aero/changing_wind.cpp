@@ -77,10 +77,10 @@ UndisturbedWind ChangingWind::until(double t) const {
   const auto common = [wind = wind_, t](const Eigen::Vector3d& place, double ago) { return wind.common(t - ago, place); };
   if (!has_plane()) return {common, {}};
   InflowPlane plane = plane_;
-  // The head that takes air from the carrier's speed to what it is to have, by momentum that it takes along.
+  // The head that takes air from the speed at which it comes to what it is to have, by momentum that it takes along.
   plane.push = [wind = wind_, t, normal = plane_.normal](const Eigen::Vector3d& place) -> Eigen::Vector3d {
     const Eigen::Vector3d gust = wind.fluctuation(t, place);
-    return (wind.carrier() + 0.5 * gust.dot(normal)) * gust;
+    return (wind.common(t, place).dot(normal) + 0.5 * gust.dot(normal)) * gust;
   };
   return {common, plane};
 }

@@ -208,7 +208,7 @@ const scene::Section<TurbineOptions>& turbine_section() {
                {"at_stations",
                 "round each row, from half-way to half-way, with its own section: AeroDyn's sum over nodes. The first and the "
                 "last row carry no load"}},
-              "What blade elements are.")
+              "What blade elements are; an actuator disc or line has them between stations, as fine as its cells, in any case.")
           .tables("polars", &TurbineOptions::polars, polar_section(), "Lift and drag for the sections along the blade.")
           .tables("aerofoils", &TurbineOptions::aerofoils, aerofoil_section(),
                   "Outlines for the thicknesses along the blade: what a resolved blade's surface is made from.")

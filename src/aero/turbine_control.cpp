@@ -271,7 +271,7 @@ void TurbineControl::turn_rigid(double h, const Measured& measured, State& s) co
 }
 
 /// Rotor and generator on the two ends of a spring and a damper, by the trapezium rule in twist and torque: stable at any step
-/// and without damping of its own. The air's torque is extrapolated to the middle of the step.
+/// and without damping of its own.
 void TurbineControl::turn_elastic(double h, const Measured& measured, State& s, std::span<double> memory) const {
   Shaft shaft = this->shaft(memory);
   const double rotor = turned_inertia(measured), generator = drive_train_.generator_inertia_kg_m2,

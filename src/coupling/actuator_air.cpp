@@ -118,6 +118,9 @@ class ActuatorAir final : public MarchingAir {
     const aero::PseudoRow& row = solver_->rows().back();
     ComputedLoads loads{actuator_->load(row), {}};
     for (int b = 1; b <= int(loads_.computed.blades.size()); ++b) loads.blades.push_back(actuator_->blade_load(b, row));
+    // Of the rotor's own turning: the actuator's also has that of what carries it.
+    loads.rotor.power = loads.rotor.torque * state_.speed;
+    for (aero::RotorLoad& blade : loads.blades) blade.power = blade.torque * state_.speed;
     return loads;
   }
   std::vector<SavedArray> computed_arrays() const override { return {computed_loads_array(loads_.computed, world_.rank)}; }

@@ -102,14 +102,10 @@ class ResolvedAir final : public MarchingAir {
     if (!rotor_) make_timed();
     tell_size();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
-    // A profile is no steady flow for turning blades: what settled has the hub's wind, and the rest is added to its flow.
-    if (settles && !wind().steady())
-      wind().begin(solver_->tiles(), [from = settling_wind()](const Eigen::Vector3d&) { return from; });
-    else if (settles && !setup_.profile.uniform())
-      aero::add_velocity(solver_->tiles(), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
-        return (setup_.profile.share(x.z()) - share_at_hub()) * setup_.wind;
-      });
-    if (!start.air.empty()) start_from_saved_air(start.air);
+    if (!start.air.empty())
+      start_from_saved_air(start.air);
+    else if (settles)
+      add_what_is_not_steady(settling_wind());
     return update_load_on_bodies();
   }
 
@@ -198,6 +194,17 @@ class ResolvedAir final : public MarchingAir {
     return axis.dot(wind().at_start().velocity(frame_.start.hub, 0.0)) * axis;
   }
 
+  /// A profile is no steady flow for turning blades: air that settled did so in the wind `from`, and the rest is added to its
+  /// flow.
+  void add_what_is_not_steady(const Eigen::Vector3d& from) {
+    if (!wind().steady())
+      wind().begin(solver_->tiles(), [&](const Eigen::Vector3d&) { return from; });
+    else if (!setup_.profile.uniform())
+      aero::add_velocity(solver_->tiles(), [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+        return setup_.profile.share(x.z()) * setup_.wind - from;
+      });
+  }
+
   /// Looked through once for the solver that settles and the one that moves: ten core-seconds at the paper's size.
   const std::shared_ptr<const aero::MadeRotorGrid>& grid() {
     if (!grid_) grid_ = made_rotor_grid(setup_, world_.comm, grid_progress());
@@ -250,6 +257,7 @@ class ResolvedAir final : public MarchingAir {
   void start_from_saved_air(const std::string& file) {
     const io::CheckpointReader saved = open_saved(world_.comm, file);
     loads_.computed = start_from(saved, scenario(), *rotor_, aero::hub_pose(setup_.rotor));
+    if (is_of_plain_wind(saved)) add_what_is_not_steady(setup_.wind);
     log_lines_.push_back(
         fmt::format("air taken from {}: thrust {:.4g} kN", saved.path().string(), 1e-3 * loads_.computed.rotor.thrust));
   }

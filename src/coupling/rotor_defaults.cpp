@@ -23,7 +23,7 @@ Scenario look(scene::Document copy) {
   s.aero = copy.read(aero::aero_section());
   s.rotor = copy.read(aero::rotor_section());
   s.wind = copy.read(aero::wind_section());
-  s.wind.direction = aero::starting_direction(s.wind);
+  s.wind.speed_m_s = aero::starting_speed(s.wind), s.wind.direction = aero::starting_direction(s.wind);
   s.joints = copy.read_named(bodies::joint_section());
   s.control = copy.read(aero::control_section());
   for (const auto& [name, joint] : s.joints)

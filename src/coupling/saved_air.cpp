@@ -22,7 +22,7 @@ namespace spindrift::coupling {
 
 namespace {
 
-constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load",
+constexpr const char *settings_name = "air/settings", *pose_name = "air/pose", *load_name = "air/load", *wind_name = "air/wind",
                      *rotor_load_name = "air/answer", *grid_name = "air/grid", *places_name = "air/places";
 
 /// The parameters of a section as lines "heading.key = value"; of all keys where none are named.
@@ -39,13 +39,30 @@ void add_lines(std::string& lines, const scene::SectionBase& section, const std:
 std::string settings_of(const Scenario& s) {
   std::string lines = fmt::format("rotor.turbine = {}\n", std::filesystem::path(s.rotor.turbine).filename().string());
   add_lines(lines, aero::rotor_section(), "rotor", &s.rotor, {"blade_pitch_deg"});
-  add_lines(lines, aero::wind_section(), "wind", &s.wind, {"speed_m_s"});
+  add_lines(lines, aero::wind_section(), "wind", &s.wind, {"speed_m_s", "direction_deg"});
   add_lines(lines, environment_section(), "environment", &s.environment, {"air_density_kg_m3"});
   add_lines(lines, aero::rotor_grid_section(), "aero.grid", &*s.aero.grid);
   add_lines(lines, aero::flow_section(), "aero.flow", &*s.aero.flow,
             {"blades", "temperature_K", "viscosity_Pa_s", "viscous", "turbulence", "flux", "limiter", "upwinding",
              "physical_far_field", "first_order_turbulence"});
   return lines;
+}
+
+/// What of the wind is not the same at all heights and times, one a line; nothing where it is.
+std::string changes_of(const aero::WindOptions& wind) {
+  std::string lines = "\n";  // an array of a file is not empty
+  if (wind.law != WindLaw::uniform)
+    add_lines(lines, aero::wind_section(), "wind", &wind,
+              {"profile", "reference_height_m", "shear_exponent", "roughness_m", "least_height_m"});
+  if (!wind.table.empty()) lines += "wind.table\n";
+  if (wind.event) lines += "wind.event\n";
+  if (wind.turbulence) lines += "wind.turbulence\n";
+  return lines;
+}
+
+std::string read_lines(const io::CheckpointReader& file, const char* name) {
+  const std::vector<std::byte> bytes = file.read<std::byte>(name);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// The first line of `a` that `b` has not, empty where there is none.
@@ -89,8 +106,9 @@ io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file
 }
 
 void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario) {
-  const std::string lines = settings_of(scenario);
+  const std::string lines = settings_of(scenario), wind = changes_of(scenario.wind);
   copy.write<std::byte>(settings_name, std::as_bytes(std::span(lines)));
+  copy.write<std::byte>(wind_name, std::as_bytes(std::span(wind)));
 }
 
 ComputedLoads computed_loads(const aero::ResolvedRotor& rotor) {
@@ -172,17 +190,21 @@ std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file) {
   return places;
 }
 
+bool is_of_plain_wind(const io::CheckpointReader& file) { return read_lines(file, wind_name) == changes_of({}); }
+
 ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
                          const aero::RotorPose& start) {
   const auto refuse = [&](const std::string& why) {
     throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why));
   };
-  if (!file.has(settings_name) || !file.has(pose_name)) refuse("has no air of a resolved rotor");
-  const std::vector<std::byte> bytes = file.read<std::byte>(settings_name);
-  const std::string theirs(reinterpret_cast<const char*>(bytes.data()), bytes.size()), ours = settings_of(scenario);
-  if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
-    refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? "the default" : there,
-                       here.empty() ? "the default" : here));
+  if (!file.has(settings_name) || !file.has(wind_name) || !file.has(pose_name)) refuse("has no air of a resolved rotor");
+  const auto require_alike = [&](const std::string& theirs, const std::string& ours, const char* otherwise) {
+    if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
+      refuse(fmt::format("its air was made with {}, this scene has {}", there.empty() ? otherwise : there,
+                         here.empty() ? otherwise : here));
+  };
+  require_alike(read_lines(file, settings_name), settings_of(scenario), "the default");
+  if (!is_of_plain_wind(file)) require_alike(read_lines(file, wind_name), changes_of(scenario.wind), "none");
   const std::vector<double> grid = file.read<double>(grid_name), mine = moments_of(rotor);
   for (std::size_t n = 0; n < mine.size(); ++n)
     if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])

@@ -51,6 +51,8 @@ SavedArray rotor_places_array(const RotorPlaces& places, int rank);
 /// Nothing where no blade could pitch.
 std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file);
 
+/// Whether the wind of the file's air was the same at all heights and times: what a scene's is beside that is then to be added.
+bool is_of_plain_wind(const io::CheckpointReader& file);
 /// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was computed,
 /// turned likewise. Throws io::InputError naming the key where the file's air is another one.
 ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,

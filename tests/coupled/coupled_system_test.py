@@ -710,6 +710,20 @@ class Saved(System):
         self.spindrift(self.from_air("settled/scene.toml"), "again", settings=["time.end_s=0.1"])
         self.assertAlmostEqual(self.rows("again")[0]["rotor.thrust_N"] / self.rows("settled")[-1]["rotor.thrust_N"], 1.0, delta=1e-3)
 
+    def test_a_profile_is_added_to_air_that_was_saved_without_one(self):
+        sheared = ["aero.grid.sectors='all'", "wind.profile='power_law'", "wind.reference_height_m=119.0", "time.end_s=0.1"]
+        self.spindrift(ENGINEERING, "settled", settings=["start.air_steps=20", *sheared])
+        self.spindrift(ALONE, "alone", settings=["aero.grid.sectors='all'"])
+        self.spindrift(self.from_air("alone/scene.toml"), "started", settings=sheared)
+        for settled, started in zip(self.rows("settled"), self.rows("started")):
+            for name in ("rotor.thrust_N", "rotor.rotor.my_N_m"):
+                self.assertAlmostEqual(started[name] / settled[name], 1.0, delta=1e-3)
+        # What one sheared run left is not air for another shear.
+        said = self.spindrift(self.from_air("settled/scene.toml"), "refused", settings=[*sheared, "wind.shear_exponent=0.3"], code=2)
+        self.assertIn("wind.shear_exponent = 0.3", said)
+        said = self.spindrift(self.from_air("alone/scene.toml"), "refused", "--overwrite", settings=["aero.grid.sectors='all'", "wind.direction_deg=20"], code=2)
+        self.assertIn("wind.direction_deg = 20", said)
+
     def test_a_coupled_run_starts_from_both_fluids_saved_alone(self):
         # The paper's section 4.6: the rotor alone, the sea alone round a platform that is held.
         self.spindrift(ALONE, "rotor")

@@ -176,6 +176,19 @@ TEST_CASE("turbulence given at the plane comes to the rotor", "[aero][fast]") {
   CHECK(a.ratio() < 1.02);
 }
 
+TEST_CASE("the plane raises the head of the air that comes at its height by the gust", "[aero][fast]") {
+  const ChangingWind changing(turbulent(10.0), site);
+  const Wind wind = wind_of(turbulent(10.0), site);
+  const double t = 7.0;
+  const UndisturbedWind until = changing.until(t);
+  for (const double height : {30.0, 119.0, 190.0}) {
+    const Vector3d place = site.hub + Vector3d(-site.diameter, 20.0, height - site.hub.z());
+    const double comes = until.velocity(place, 0.0).x(), goes = comes + wind.fluctuation(t, place).x();
+    CHECK(std::abs(comes / 10.0 - std::pow(height / 119.0, 0.14)) < 0.1);
+    CHECK(until.plane->push(place).x() == Approx(0.5 * (goes * goes - comes * comes)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("extreme shear is at the rotor at once", "[aero][fast]") {
   const Agreement a = compare(sheared(12.0, GENERATE(WindEvent::ews_vertical, WindEvent::ews_horizontal)), 14.0, 0.8, 10.0);
   CAPTURE(a.correlation(), a.ratio());
