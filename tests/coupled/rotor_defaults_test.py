@@ -68,10 +68,12 @@ class Defaults(Folder):
         self.assertIn("18168 cells", self.said)
         self.assertNotIn("y+", self.said)
 
-    def test_a_speed_that_a_table_gives_counts_as_one_that_the_scene_gives(self):
-        (self.path / "wind.csv").write_text("time_s,speed_m_s\n0,11\n10,12\n")
-        scene = self.run_text(CARRIED.replace("speed_m_s = 11.0", 'table = "wind.csv"').replace("[rotor]", '[rotor]\noperating_point = "table"'), "aero.flow.max_pseudo_steps=2", "aero.flow.unconverged_share=1.0")[0]
-        self.assertEqual(scene["aero"]["flow"]["blades"], "wall_function")
+    def test_wind_of_a_table_counts_as_that_of_the_scene(self):
+        (self.path / "wind.csv").write_text("time_s,speed_m_s,direction_deg\n0,11,10\n10,12,10\n")
+        (self.path / "scene.toml").write_text(CARRIED.replace("speed_m_s = 11.0", 'table = "wind.csv"'))
+        done = spindrift("check", self.path / "scene.toml")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("in 3 sectors", done.stdout)
 
     def test_all_blades_are_in_the_grid_where_they_differ(self):
         scene = self.path / "scene.toml"
