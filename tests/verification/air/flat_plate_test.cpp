@@ -16,7 +16,7 @@ namespace {
 
 PlateResult plate(int n, const std::string& model, double drop, bool first_order, bool thin_layer = false) {
   FlowSetting s = plate_air(model);
-  s.march.drop = drop, s.march.max_steps = 400;
+  s.march.drop = drop, s.march.max_steps = 1000;
   s.first_order_model = first_order;  // as both codes
   s.thin_layer = thin_layer;
   if (model != "sa")
