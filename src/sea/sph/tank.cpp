@@ -68,36 +68,64 @@ class PlacesBySurfaces {
   std::vector<Of> of_;  ///< z fastest; empty where no surface makes walls
 };
 
-/// cosh(k (z + h)) / sinh(k h) and sinh(k (z + h)) / sinh(k h), in deep water before these overflow.
-std::array<double, 2> over_sinh(double k, double z, double depth) {
+/// C = cosh(k (z + h)) / sinh(k h) and S = sinh(k (z + h)) / sinh(k h), in deep water before these overflow; above still water by
+/// the straight line that continues them, as zones lead to waves (damping.hpp): by the formula short harmonics of a sea state
+/// would be several times too fast in its crests.
+std::array<double, 2> profiles(double k, double z, double depth) {
   constexpr double deep = 300.0;
-  const double kz = k * (z + depth), kh = k * depth;
-  if (kh > deep) return {std::exp(k * z), std::exp(k * z)};
-  return {std::cosh(kz) / std::sinh(kh), std::sinh(kz) / std::sinh(kh)};
+  const double under = std::min(z, 0.0), over = k * std::max(z, 0.0), kz = k * (under + depth), kh = k * depth;
+  const double even = kh > deep ? std::exp(k * under) : std::cosh(kz) / std::sinh(kh),
+               odd = kh > deep ? std::exp(k * under) : std::sinh(kz) / std::sinh(kh);
+  return {even + over * odd, odd + over * even};
 }
 
-/// Where a particle of water at rest is in the motion of the waves at their t = 0, and its velocity: displacements of linear
-/// theory, (U/omega) (-C sin psi, S cos psi) along and up, which keep volume to first order; velocities of the place where it
-/// then is, so that a fixed point has no mean current.
+/// Where a particle of water at rest is in the motion of the waves at their t = 0, its velocity and its pressure. With
+/// xi = sum of (U/omega) (-C sin psi, S cos psi), the displacement of linear theory, it goes to x + xi(x + xi(x) / 2): the
+/// midpoint rule along a field without divergence, which keeps volume to second order and with it the mean level, for any number
+/// of waves. Velocities are those of the place where it then is, so that a fixed point has no mean current. At rest above it is
+/// the pressure rho [(omega/k) U C - g (U/omega) S] cos psi less its value at the surface. That is zero for a free wave; for the
+/// bound harmonic of a Stokes wave it is what the first harmonic's pressure of second order takes away, at all depths.
 template <int dim>
-void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth) {
+void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth, const EosTait& eos, double gravity) {
   const Eigen::Vector3d x = to_earth<dim>(seed.position);
-  Eigen::Vector3d v = Eigen::Vector3d::Zero(), now = x;
   const auto sum = [&](const Eigen::Vector3d& at, auto&& add) {
     for (const waves::Component& c : waves) {
       const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
       const double psi = c.wave_number * along.dot(at) + c.phase;
-      const auto [horizontal, vertical] = over_sinh(c.wave_number, at[2], depth);
-      add(c, Eigen::Vector3d(horizontal * along), Eigen::Vector3d(vertical * Eigen::Vector3d::UnitZ()), psi);
+      add(c, along, profiles(c.wave_number, at[2], depth), std::cos(psi), std::sin(psi));
     }
   };
-  sum(x, [&](const waves::Component& c, const Eigen::Vector3d& along, const Eigen::Vector3d& up, double psi) {
-    now += c.speed_amplitude / c.angular_frequency * (-std::sin(psi) * along + std::cos(psi) * up);
+  const auto displacement = [&](const Eigen::Vector3d& at) {
+    Eigen::Vector3d xi = Eigen::Vector3d::Zero();
+    sum(at, [&](const waves::Component& c, const Eigen::Vector3d& along, const auto& of_z, double cosine, double sine) {
+      xi += c.speed_amplitude / c.angular_frequency * (-of_z[0] * sine * along + of_z[1] * cosine * Eigen::Vector3d::UnitZ());
+    });
+    return xi;
+  };
+  double pressure = eos.pressure(seed.deviation);
+  sum(x, [&](const waves::Component& c, const Eigen::Vector3d&, const auto& of_z, double cosine, double) {
+    const auto of_surface = profiles(c.wave_number, 0.0, depth);
+    const double dynamic = c.angular_frequency / c.wave_number * (of_z[0] - of_surface[0]),
+                 risen = gravity / c.angular_frequency * (of_z[1] - of_surface[1]);
+    pressure += eos.rho0 * c.speed_amplitude * (dynamic - risen) * cosine;
   });
-  sum(now, [&](const waves::Component& c, const Eigen::Vector3d& along, const Eigen::Vector3d& up, double psi) {
-    v += c.speed_amplitude * (std::cos(psi) * along + std::sin(psi) * up);
+  const Eigen::Vector3d now = x + displacement(x + 0.5 * displacement(x));
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  sum(now, [&](const waves::Component& c, const Eigen::Vector3d& along, const auto& of_z, double cosine, double sine) {
+    v += c.speed_amplitude * (of_z[0] * cosine * along + of_z[1] * sine * Eigen::Vector3d::UnitZ());
   });
-  seed.position = from_earth<dim>(now), seed.velocity = from_earth<dim>(v);
+  seed.position = from_earth<dim>(now), seed.velocity = from_earth<dim>(v), seed.deviation = eos.deviation(pressure);
+}
+
+/// Of a wall that stands in the waves under still water, over that of rest there: what linear theory has at the place [Pa].
+double wave_pressure(const Eigen::Vector3d& x, std::span<const waves::Component> waves, double depth, double density) {
+  double pressure = 0.0;
+  for (const waves::Component& c : waves) {
+    const double psi = c.wave_number * (std::cos(c.direction) * x[0] + std::sin(c.direction) * x[1]) + c.phase;
+    const double dynamic = c.angular_frequency / c.wave_number * c.speed_amplitude;
+    pressure += density * dynamic * profiles(c.wave_number, std::max(x[2], -depth), depth)[0] * std::cos(psi);
+  }
+  return pressure;
 }
 
 /// Lays out a tank. What needs neighbours (water that bodies displace or move aside) is found once and kept; all else is made
@@ -275,9 +303,13 @@ class Layout {
   /// How far water may be from its place of the lattice: moved by waves, aside by bodies, and by jitter [m].
   double farthest_off_lattice() const {
     double far = (1.0 + plan_.jitter) * p_.spacing;
-    const double top = std::max(0.0, surface_of_scene());
-    for (const waves::Component& c : plan_.waves)
-      far += std::abs(c.speed_amplitude / c.angular_frequency) * over_sinh(c.wave_number, top, plan_.depth)[0];
+    const auto sum = [&](double z) {
+      double all = 0.0;
+      for (const waves::Component& c : plan_.waves)
+        all += std::abs(c.speed_amplitude / c.angular_frequency) * profiles(c.wave_number, z, plan_.depth)[0];
+      return all;
+    };
+    if (!plan_.waves.empty()) far += sum(sum(0.0));  // at the highest that a particle may be
     return far;
   }
 
@@ -406,7 +438,7 @@ class Layout {
         seed.position[dim - 1] = surface - below;
         seed.deviation = p_.eos.hydrostatic_deviation(below, p_.gravity);
       }
-      if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth);
+      if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth, p_.eos, p_.gravity);
       bool in_tank = plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
       if constexpr (dim == 3)
         in_tank = in_tank && (plan_.periodic[1] || (seed.position[1] > plan_.y[0] && seed.position[1] < plan_.y[1]));
@@ -433,6 +465,9 @@ class Layout {
     Seed<dim> seed{.position = x};
     // Beside boxes of water that do not fill the tank walls start without pressure: water will come to them.
     seed.deviation = plan_.water.empty() ? deviation_at(x[dim - 1], surface_of_scene()) : 0.0;
+    if (!plan_.waves.empty() && x[dim - 1] < 0.0)
+      seed.deviation = p_.eos.deviation(std::max(
+          0.0, p_.eos.pressure(seed.deviation) + wave_pressure(to_earth<dim>(x), plan_.waves, plan_.depth, p_.eos.rho0)));
     seed.owner = owner;
     if (plan_.modified_walls) seed.ghost = ghost_of_wall(x, owner);
     return seed;

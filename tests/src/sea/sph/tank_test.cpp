@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "kernels/sph/kernel_wendland.hpp"
+#include "kernels/waves/stokes.hpp"
 #include "src/sea/sph/solids.hpp"
 #include "src/sea/sph/tank_count.hpp"
 
@@ -389,12 +390,79 @@ TEST_CASE("water that starts in a wave follows its surface and its velocity", "[
     if (std::abs(s.position[0] - 10.0) < 0.1 || s.position[0] < 0.1) crest = std::max(crest, s.position[1]);
     if (std::abs(s.position[0] - 5.0) < 0.1) trough_top = std::max(trough_top, s.position[1]);
     fastest = std::max(fastest, s.velocity[0]);
-    const double depth_here = k * (s.position[1] + 2.0), psi = k * s.position[0];  // of where it is, not of where it was at rest
-    CHECK(s.velocity[0] == Approx(a * omega * std::cosh(depth_here) / std::sinh(k * 2.0) * std::cos(psi)).margin(1e-12));
-    CHECK(s.velocity[1] == Approx(a * omega * std::sinh(depth_here) / std::sinh(k * 2.0) * std::sin(psi)).margin(1e-12));
+    // Of where it is, not of where it was at rest; above still water in a straight line.
+    const double under = k * (std::min(s.position[1], 0.0) + 2.0), over = k * std::max(s.position[1], 0.0),
+                 psi = k * s.position[0];
+    const double even = std::cosh(under) + over * std::sinh(under), odd = std::sinh(under) + over * std::cosh(under);
+    CHECK(s.velocity[0] == Approx(a * omega * even / std::sinh(k * 2.0) * std::cos(psi)).margin(1e-12));
+    CHECK(s.velocity[1] == Approx(a * omega * odd / std::sinh(k * 2.0) * std::sin(psi)).margin(1e-12));
   });
   CHECK(crest - trough_top == Approx(2.0 * a).epsilon(0.05));
   CHECK(fastest == Approx(a * omega * std::cosh(k * (2.0 + a)) / std::sinh(k * 2.0)).epsilon(0.05));
+}
+
+TEST_CASE("water that starts in a wave has its pressure, at the bed and in the middle of the depth", "[sea][sph][fast]") {
+  constexpr double depth = 2.0, length = 10.0, a = 0.02, k = 2.0 * pi / length;
+  TankPlan plan = tank(length, 0.0, depth);
+  plan.periodic = {true, false};
+  const double omega = std::sqrt(9.81 * k * std::tanh(k * depth));
+  plan.waves = {{.wave_number = k, .angular_frequency = omega, .amplitude = a, .speed_amplitude = a * omega, .phase = 0.7}};
+  Parameters p = particles(0.1, depth);
+  const auto t = lay_out<2>(plan, p);
+  const double highest = p.eos.rho0 * p.gravity * a;
+  int at_bed = 0, in_middle = 0;
+  for (const Seed<2>& s : t.seeds.all()) {
+    const double z = s.position[1], share = std::cosh(k * std::max(z + depth, 0.0)) / std::cosh(k * depth);
+    const bool water = s.owner == water_owner, bed = water && z < 0.1 - depth, middle = water && std::abs(z + 0.5 * depth) < 0.1;
+    if (!bed && !middle && (water || z > -depth)) continue;
+    at_bed += bed, in_middle += middle;
+    const double over_rest = p.eos.pressure(s.deviation) - p.eos.pressure(p.eos.hydrostatic_deviation(-z, p.gravity));
+    CAPTURE(s.position[0], z);
+    CHECK(over_rest == Approx(highest * share * std::cos(k * s.position[0] + 0.7)).margin(0.02 * highest));
+  }
+  CHECK(at_bed == 100);
+  CHECK(in_middle >= 100);
+}
+
+namespace {
+
+/// Of the line through the uppermost particles of a 2-D sea between sides that repeat, over its height at rest [m].
+double mean_of_surface(const TankPlan& plan) {
+  Parameters p = particles(0.1, plan.depth);
+  TankPlan still = plan;
+  still.waves.clear();
+  const auto rest = lay_out<2>(still, p).seeds.all(), moved = lay_out<2>(plan, p).seeds.all();
+  double highest = -1e9, area = 0.0;
+  for (const Seed<2>& s : rest)
+    if (s.owner == water_owner) highest = std::max(highest, s.position[1]);
+  std::vector<std::array<double, 2>> line;
+  for (std::size_t n = 0; n < rest.size(); ++n)
+    if (rest[n].owner == water_owner && rest[n].position[1] > highest - 1e-6) line.push_back(moved[n].position);
+  const double length = plan.x[1] - plan.x[0];
+  line.push_back({line.front()[0] + length, line.front()[1]});
+  for (std::size_t n = 1; n < line.size(); ++n) area += 0.5 * (line[n][1] + line[n - 1][1]) * (line[n][0] - line[n - 1][0]);
+  return area / length - highest;
+}
+
+}  // namespace
+
+TEST_CASE("the mean level of water that starts in waves is that of rest to third order", "[sea][sph][fast]") {
+  constexpr double depth = 1.5, length = 10.0, a = 0.2, k = 2.0 * pi / length;
+  TankPlan plan = tank(length, 0.0, depth);
+  plan.periodic = {true, false};
+  const waves::Component wave{.wave_number = k,
+                              .angular_frequency = std::sqrt(9.81 * k * std::tanh(k * depth)),
+                              .amplitude = a,
+                              .speed_amplitude = a * std::sqrt(9.81 * k * std::tanh(k * depth))};
+  SECTION("a Stokes wave") { plan.waves = {wave, waves::stokes_second(wave, depth)}; }
+  SECTION("a standing wave at its highest and half way to level water") {
+    const double phase = GENERATE(0.0, 1.0);
+    plan.waves = {wave, wave};
+    plan.waves[0].phase = phase, plan.waves[1].phase = phase, plan.waves[1].direction = pi;
+    for (waves::Component& c : plan.waves) c.amplitude *= 0.5, c.speed_amplitude *= 0.5;
+  }
+  const double mean = mean_of_surface(plan);
+  CHECK(std::abs(mean) < k * k * a * a * a);  // before second order: k a^2 coth(k h) / 2, 0.017 m
 }
 
 TEST_CASE("between walls a wave brings in as much water as it takes out, whatever its phase", "[sea][sph][fast]") {
