@@ -301,7 +301,7 @@ const Section<SensorOptions>& sensor_section() {
                              "wall, or the part of a body's surface in a box.")
           .text("name", &SensorOptions::name, "Name of the columns.")
           .required()
-          .text("body", &SensorOptions::body, "Body whose surface it is; walls and obstacles of the tank where absent.")
+          .text("body", &SensorOptions::body, "Body whose surface it is; walls, obstacles and paddle of the tank where absent.")
           .vector("low_m", &SensorOptions::low_m, "m",
                   "Lowest corner; of a body where the scene describes it. On walls the box is flat along one axis.")
           .required()

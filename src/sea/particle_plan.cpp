@@ -10,6 +10,8 @@
 #include "kernels/waves/dispersion.hpp"
 #include "src/sea/particle_sea.hpp"
 #include "src/sea/sph/sensors.hpp"
+#include "src/sea/sph/tank_count.hpp"
+#include "src/sea/sph/tank_lattice.hpp"
 #include "src/sea/wave_field.hpp"
 #include "src/sea/wave_model.hpp"
 
@@ -81,6 +83,21 @@ sph::Parameters parameters_of(const SeaOptions& o, const SeaEnvironment& environ
 
 sph::TankPlan::Block block_of(const BoxOptions& box) { return {box.low_m, box.high_m}; }
 
+/// Walls, bed and boxes of the tank, at rest.
+sph::TankPlan tank_of(const SeaOptions& o, const SeaEnvironment& environment) {
+  const TankOptions& t = *o.tank;
+  sph::TankPlan tank;
+  tank.x = t.x_m, tank.y = t.y_m, tank.depth = environment.water_depth, tank.top = t.top_m;
+  tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"}, tank.mirrored = t.symmetric();
+  tank.open = {t.sides_x == "open", t.sides_y == "open"}, tank.over_edge_open = t.over_edge == "open";
+  for (const scene::MeshOptions& m : t.meshes)
+    if (const auto& surface = m.prism ? m.prism : m.surface) tank.walls.push_back({surface, m.water == "inside"});
+  tank.bed = t.bed_m, tank.modified_walls = o.particles->modified_walls();
+  for (const BoxOptions& box : o.water) tank.water.push_back(block_of(box));
+  for (const BoxOptions& box : o.obstacles) tank.obstacles.push_back(block_of(box));
+  return tank;
+}
+
 /// Waves with the wave numbers that they have over a bed shallower than the scene's.
 std::vector<waves::Component> over_bed(std::vector<waves::Component> waves, double bed, const SeaEnvironment& environment) {
   if (bed != -environment.water_depth)
@@ -98,14 +115,8 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
                     .sound_speed_from = sound.from,
                     .bodies = std::move(bodies)};
   const TankOptions& t = *o.tank;
+  plan.tank = tank_of(o, environment);
   plan.tank.jitter = o.particles->jitter, plan.tank.jitter_seed = std::uint64_t(o.particles->jitter_seed);
-  plan.tank.x = t.x_m, plan.tank.y = t.y_m, plan.tank.depth = environment.water_depth, plan.tank.top = t.top_m;
-  plan.tank.periodic = {t.sides_x == "periodic", t.sides_y == "periodic"}, plan.tank.mirrored = t.symmetric();
-  plan.tank.open = {t.sides_x == "open", t.sides_y == "open"}, plan.tank.over_edge_open = t.over_edge == "open";
-  for (const scene::MeshOptions& m : t.meshes) plan.tank.walls.push_back({m.prism ? m.prism : m.surface, m.water == "inside"});
-  plan.tank.bed = t.bed_m, plan.tank.modified_walls = o.particles->modified_walls();
-  for (const BoxOptions& box : o.water) plan.tank.water.push_back(block_of(box));
-  for (const BoxOptions& box : o.obstacles) plan.tank.obstacles.push_back(block_of(box));
   if (waves.model != "none") plan.waves = WaveField(waves, environment).components();
   plan.second_order = waves.model != "none" && wave_models().named(waves.model).second_order;
   if (o.starts_in_waves()) plan.tank.waves = plan.waves;
@@ -152,6 +163,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const bool planar = p.planar(), waved = waves.model != "none";
   const double d = p.spacing_m, depth = environment.water_depth, reach = 2.0 * p.smoothing_over_spacing * d;
   const sph::TankPlan ground{.depth = depth, .bed = t.bed_m};
+  const sph::TankPlan tank = tank_of(o, environment);
+  sph::Parameters lattice;
+  lattice.spacing = d, lattice.h_over_d = p.smoothing_over_spacing;
 
   if (!planar && !(t.y_m[1] > t.y_m[0])) wrong("sea.tank.y_m", "is needed in 3-D and must go from the lower to the higher side");
   if (planar && t.y_m != std::array<double, 2>{})
@@ -247,6 +261,13 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
   }
 
+  // What follows looks for places of the lattice, which must be one that can be laid out.
+  constexpr double longest = 1e6;  // in spacings
+  const bool laid_out =
+      problems.empty() && std::max({t.x_m[1] - t.x_m[0], t.y_m[1] - t.y_m[0], t.top_m + depth, depth}) < longest * d;
+  const double edge_of_cells = !laid_out ? d
+                               : planar  ? std::sqrt(sph::TankLattice<2>(tank, d).cell())
+                                         : std::cbrt(sph::TankLattice<3>(tank, d).cell());
   std::set<std::string> names;
   const auto name = [&](const std::string& key, const std::string& value) {
     if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos)
@@ -295,6 +316,13 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
                                t.y_m[0]));
       else if (sph::points_of_surface(body->shapes, low, high, d, cut).empty())
         wrong(key, "has nothing of the surface of " + sensor.body + " between low_m and high_m, where the scene describes it");
+      else if (laid_out && std::ranges::none_of(sph::fill_body(body->shapes, edge_of_cells, cut), [&](const Eigen::Vector3d& x) {
+                 return (planar || (x[1] >= low[1] && x[1] <= high[1])) && x[0] >= low[0] && x[0] <= high[0] && x[2] >= low[2] &&
+                        x[2] <= high[2];
+               }))
+        wrong(key, fmt::format("has no particle of {}, whose outermost are half a spacing of {} m inside its surface: the force "
+                               "would be none; make it reach deeper",
+                               sensor.body, d));
       continue;
     }
     int flat = 0;
@@ -309,6 +337,22 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       wrong(key, fmt::format("is above the tank's walls, which end at {:.6g} m (sea.tank.top_m)", t.top_m));
     if (!outside && t.symmetric() && sensor.high_m[1] == t.y_m[0])
       wrong(key, "is on the plane of symmetry (sea.tank.sides_y), where there is no wall");
+    else if (!outside && flat == 1 && laid_out && sensor.low_m[2] < t.top_m) {
+      if (o.wavemaker && sensor.low_m[0] == sensor.high_m[0] && sensor.low_m[0] == t.x_m[0]) {
+        const double bed = ground.bed_at(t.x_m[0]), hinge = o.wavemaker->hinge_m.value_or(bed);
+        if (sensor.high_m[2] <= bed)
+          wrong(key, fmt::format("is below the bed, which is at {:.6g} m there", bed));
+        else if (hinge > bed && sensor.low_m[2] < hinge && sensor.high_m[2] > hinge)
+          wrong(key, fmt::format("is partly on the flap of [sea.wavemaker], which turns, and partly on the wall under its hinge "
+                                 "at {:.6g} m: give one for each",
+                                 hinge));
+        continue;
+      }
+      sph::TankPlan::Block near = sph::particles_of_rectangle(sensor.low_m, sensor.high_m, reach);
+      near.low.array() -= d, near.high.array() += d;  // those of pressure alone may fit between two rows
+      if (!(planar ? sph::holds_wall<2>(tank, lattice, near) : sph::holds_wall<3>(tank, lattice, near)))
+        wrong(key, "is on no wall: within reach of it there is no particle of a side, the bed, an obstacle or a mesh");
+    }
   }
   for (std::size_t n = 0; n < o.damping_zones.size(); ++n) {
     const DampingZoneOptions& zone = o.damping_zones[n];
@@ -336,8 +380,15 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
         wrong(fmt::format("sea.water[{}]", n),
               fmt::format("overlaps sea.water[{}], where there would be water twice; boxes may touch", m));
     }
-  for (std::size_t n = 0; n < o.water.size(); ++n)
-    if (o.water[n].high_m[2] <= -depth) wrong(fmt::format("sea.water[{}]", n), fmt::format("lies below the bed at {} m", -depth));
+  const auto require_places = [&](const std::string& name, const std::vector<BoxOptions>& boxes) {
+    for (std::size_t n = 0; laid_out && n < boxes.size(); ++n) {
+      const sph::TankPlan::Block block = block_of(boxes[n]);
+      if ((planar ? sph::places_in<2>(tank, lattice, block) : sph::places_in<3>(tank, lattice, block)) == 0.0)
+        wrong(fmt::format("sea.{}[{}]", name, n),
+              fmt::format("holds no particle: it is outside the tank, in its bed, or thinner than the spacing of {} m", d));
+    }
+  };
+  require_places("water", o.water), require_places("obstacles", o.obstacles);
 
   const sph::Cut cut = planar ? sph::Cut::plane : sph::Cut::space;
   for (const ParticleBody& body : bodies)

@@ -54,8 +54,15 @@ sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, doubl
   sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
   if (sensor.body.empty()) {
     patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
-    for (int k = 0; k < 3; ++k)  // the particles of the wall on either side of it within reach of water
-      if (patch.low[k] == patch.high[k]) patch.low[k] -= reach, patch.high[k] += reach;
+    const sph::TankPlan::Block box = sph::particles_of_rectangle(patch.low, patch.high, reach);
+    patch.low = box.low, patch.high = box.high;
+    if (plan.paddle && sensor.low_m[0] == plan.tank.x[0] && sensor.high_m[0] == plan.tank.x[0] &&
+        sensor.high_m[2] > plan.paddle->paddle().hinge) {  // it goes with the paddle
+      const Eigen::Vector3d origin = plan.paddle->at_rest().position;
+      patch.owner = solids.owner_of_paddle();
+      patch.low -= origin, patch.high -= origin;
+      for (Eigen::Vector3d& point : patch.points) point -= origin;
+    }
   } else {
     const auto named = std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
     const Motion& described = named->described;

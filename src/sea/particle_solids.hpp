@@ -51,6 +51,7 @@ class ParticleSolids {
   void set(const SolidsState& state) { state_ = state; }
   /// Of a body of the scene; 0: it has no particles.
   std::uint16_t owner(std::size_t body) const { return owner_of_body_[body]; }
+  std::uint16_t owner_of_paddle() const { return paddle_; }
   sph::Wavemaker::Stroke paddle(double t_s) const {
     return wavemaker_ ? wavemaker_->stroke(t_s) : sph::Wavemaker::Stroke{0.0, 0.0};
   }

@@ -46,6 +46,13 @@ class Planar(Folder):
                                                                       f"sea.particles.step={step}"])
                 self.assertAlmostEqual(found["sea.work_of_solids_J"][-1] / -found["energy.sea.work_J"][-1], 1.0, delta=2e-3)   # by the end's velocity: 0.98
 
+    def test_a_sensor_on_the_paddle_has_the_force_of_one_on_a_wall(self):
+        patches = ", ".join(f"{{name='{name}', low_m=[{x}, 0.0, -0.5], high_m=[{x}, 0.0, -0.1]}}" for name, x in (("paddle", -1.0), ("wall", 1.0)))
+        found = self.run_scene("paddle", settings=["waves.model=airy", "waves.height_m=0.02", "waves.period_s=1.0", "sea.wavemaker.type=piston",
+                                                   f"sea.sensors=[{patches}]", "time.end_s=0.1"])
+        self.assertGreater(found["wall.fx_N"][-1], 100.0)
+        self.assertAlmostEqual(found["paddle.fx_N"][-1] / -found["wall.fx_N"][-1], 1.0, delta=0.1)
+
     def test_check_prints_the_modes_of_the_plane_alone(self):
         said = spindrift("check", SCENE).stdout
         self.assertIn("of 3 freedoms without stiffness", said)

@@ -16,6 +16,13 @@ Points points_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& hi
   return points;
 }
 
+TankPlan::Block particles_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double reach) {
+  TankPlan::Block box{low, high};
+  for (int k = 0; k < 3; ++k)
+    if (low[k] == high[k]) box.low[k] -= reach, box.high[k] += reach;
+  return box;
+}
+
 Points points_of_surface(std::span<const BodyShape> shapes, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                          double spacing, Cut cut) {
   // The outermost particles, each moved along the gradient of the distance to where that is zero.

@@ -17,6 +17,7 @@
 #include "src/sea/sph/body_shapes.hpp"
 #include "src/sea/sph/gauges.hpp"
 #include "src/sea/sph/solids.hpp"
+#include "src/sea/sph/tank.hpp"
 
 namespace spindrift::sph {
 
@@ -29,6 +30,8 @@ struct Patch {
 
 /// Points a spacing apart or less, of the rectangle that a box without extent along one axis is.
 Points points_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double spacing, Cut cut);
+/// The box of the particles of the wall that such a rectangle is on: as deep on either side of it as water feels them.
+TankPlan::Block particles_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double reach);
 /// Points of the surface of a union of shapes inside a box, about a spacing apart; body axes.
 Points points_of_surface(std::span<const BodyShape> shapes, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
                          double spacing, Cut cut);

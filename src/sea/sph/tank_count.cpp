@@ -29,6 +29,29 @@ class Counting {
     result.water = std::max(0.0, result.water);
     return result;
   }
+  double places_of(const TankPlan::Block& block) const {
+    double all = 0.0;
+    for (int i = 0; i < lattice_.count[0]; ++i) {
+      const double x = lattice_.at(0, i);
+      all += in_block(block, x, plan_.bed_at(x));
+    }
+    return all;
+  }
+  bool holds_wall(const TankPlan::Block& box) const {
+    std::array<std::vector<double>, 3> along;  // places in the box, as far as walls may be
+    if (dim == 2) along[1] = {0.0};
+    for (int k = 0; k < dim; ++k) {
+      const int axis = dim == 2 && k == 1 ? 2 : k, layers = axis == 2 || walled(std::size_t(k)) ? layers_ : 0;
+      for (int n = -layers; n < lattice_.count[k] + layers; ++n)
+        if (const double x = lattice_.at(k, n); x >= box.low[axis] && x <= box.high[axis] && (axis != 2 || x < top()))
+          along[std::size_t(axis)].push_back(x);
+    }
+    for (const double x : along[0])
+      for (const double y : along[1])
+        for (const double z : along[2])
+          if (is_wall_particle({x, y, z})) return true;
+    return false;
+  }
   double places() const {
     double all = 1.0;
     for (int k = 0; k < dim; ++k) all *= double(lattice_.count[k]) + (k == 1 && plan_.mirrored ? 1.0 : 2.0) * layers_;
@@ -103,6 +126,30 @@ class Counting {
   }
   bool is_wall(const Eigen::Vector3d& x, const TankPlan::Walls& walls) const {
     return (walls.surface->signed_distance(x) > 0.0) == walls.water_inside;
+  }
+
+  /// Of the sides, the bed, obstacles and surfaces, as deep as water feels it.
+  bool is_wall_particle(const Eigen::Vector3d& x) const {
+    const double deep = layers_ * p_.spacing;
+    for (int k = 0; k < dim - 1; ++k) {
+      const std::array<double, 2>& sides = k == 0 ? plan_.x : plan_.y;
+      const bool open_below = k == 0 ? plan_.paddle.has_value() : plan_.mirrored;
+      if (x[k] > sides[1] || (x[k] < sides[0] && !open_below)) return true;
+      if (x[k] < sides[0]) return false;
+    }
+    double lowest = plan_.bed_at(x[0]);
+    for (const double beside : {-deep, deep}) lowest = std::min(lowest, plan_.bed_at(x[0] + beside));
+    if (x[2] < plan_.bed_at(x[0]) && x[2] >= lowest - deep) return true;
+    const auto shell = [&](const TankPlan::Block& block) {
+      double depth = 1e300;
+      for (int k = 0; k < 3; ++k)
+        if (dim == 3 || k != 1) depth = std::min({depth, x[k] - block.low[k], block.high[k] - x[k]});
+      return depth > 0.0 && depth <= deep;
+    };
+    return std::ranges::any_of(plan_.obstacles, shell) || std::ranges::any_of(plan_.walls, [&](const TankPlan::Walls& walls) {
+             const double distance = walls.surface->signed_distance(x), depth = walls.water_inside ? distance : -distance;
+             return depth > 0.0 && depth <= deep;
+           });
   }
 
   /// Water that surfaces take, from samples; their walls from their area in the tank.
@@ -180,5 +227,19 @@ double lattice_places(const TankPlan& plan, const Parameters& p) {
 }
 template double lattice_places<2>(const TankPlan&, const Parameters&);
 template double lattice_places<3>(const TankPlan&, const Parameters&);
+
+template <int dim>
+double places_in(const TankPlan& plan, const Parameters& p, const TankPlan::Block& block) {
+  return Counting<dim>(plan, p).places_of(block);
+}
+template double places_in<2>(const TankPlan&, const Parameters&, const TankPlan::Block&);
+template double places_in<3>(const TankPlan&, const Parameters&, const TankPlan::Block&);
+
+template <int dim>
+bool holds_wall(const TankPlan& plan, const Parameters& p, const TankPlan::Block& box) {
+  return Counting<dim>(plan, p).holds_wall(box);
+}
+template bool holds_wall<2>(const TankPlan&, const Parameters&, const TankPlan::Block&);
+template bool holds_wall<3>(const TankPlan&, const Parameters&, const TankPlan::Block&);
 
 }  // namespace spindrift::sph
