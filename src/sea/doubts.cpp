@@ -10,6 +10,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/waves/wavemaker.hpp"
+#include "src/sea/sph/tank.hpp"
 
 namespace spindrift::sea {
 
@@ -135,7 +136,8 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   const auto doubt_sides = [&](const char* key, const std::string& axis, const std::string& sides,
                                const std::array<double, 2>& ends, double cosine) {
     const double across = ends[1] - ends[0], waves_in = across / length * std::abs(cosine);
-    const bool fit = std::abs(waves_in - std::round(waves_in)) <= 0.1 && (regular || std::abs(cosine) < 1e-9);
+    const bool fit =
+        std::abs(waves_in - std::round(waves_in)) <= 0.1 && (regular || std::abs(cosine) < 1e-9) && !waves.spreading_exponent;
     const auto led = [&](double end) {
       return std::any_of(sea.damping_zones.begin(), sea.damping_zones.end(),
                          [&](const DampingZoneOptions& z) { return z.axis == axis && z.towards == "waves" && z.to_m == end; });
@@ -190,12 +192,38 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
           {at + ".to_m",
            fmt::format("damping that grows inwards, from {:.4g} to {:.4g} m along {}", zone.from_m, zone.to_m, zone.axis),
            "damping that grows towards the tank's end", "exchange from_m and to_m: waves meet its full strength at once"});
+    const double first = zone.to_m < zone.from_m ? -1e300 : low,
+                 last = zone.to_m < zone.from_m ? high : 1e300;  // beyond to_m too
     for (const auto& [name, box] : bodies.boxes)
-      if (box.max()[axis] > low && box.min()[axis] < high)
-        doubts.push_back(
-            {at + ".from_m",
-             fmt::format("a zone from {:.4g} to {:.4g} m along {}, where body {} is", zone.from_m, zone.to_m, zone.axis, name),
-             "zones beside the bodies", "the water round it is brought to rest"});
+      if (box.max()[axis] > first && box.min()[axis] < last)
+        doubts.push_back({at + ".from_m",
+                          fmt::format("a zone from {:.4g} to {:.4g} m along {} and from there to the end, where body {} is",
+                                      zone.from_m, zone.to_m, zone.axis, name),
+                          "zones beside the bodies", "the water round it is brought to rest"});
+  }
+}
+
+/// Obstacles with water on both sides that feels itself through them. What stands on the bed or against a wall has no far side.
+void doubt_obstacles(scene::Doubts& doubts, const SeaOptions& sea, const SeaEnvironment& e) {
+  if (!sea.tank) return;
+  constexpr double layers = 3.0;
+  const double spacing = sea.particles->spacing_m, near = 0.5 * spacing;
+  const sph::TankPlan ground{.depth = e.water_depth, .bed = sea.tank->bed_m};
+  for (std::size_t n = 0; n < sea.obstacles.size(); ++n) {
+    const BoxOptions& box = sea.obstacles[n];
+    double thin = 1e300;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == 1 && sea.particles->planar()) continue;
+      const std::array<double, 2> sides = axis == 0   ? sea.tank->x_m
+                                          : axis == 1 ? sea.tank->y_m
+                                                      : std::array{ground.bed_at(0.5 * (box.low_m[0] + box.high_m[0])), 1e300};
+      if (box.low_m[axis] > sides[0] + near && box.high_m[axis] < sides[1] - near)
+        thin = std::min(thin, box.high_m[axis] - box.low_m[axis]);
+    }
+    if (thin < (1.0 - 1e-9) * layers * spacing)
+      doubts.push_back({fmt::format("sea.obstacles[{}]", n), fmt::format("{:.4g} m thick, {:.2g} spacings", thin, thin / spacing),
+                        fmt::format("{:g} spacings or more between water on both sides", layers),
+                        "water feels water through it, or leaks; make it thicker or the spacing smaller"});
   }
 }
 
@@ -297,6 +325,7 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
   doubt_tank(doubts, sea, waves, e, bodies);
+  doubt_obstacles(doubts, sea, e);
   doubt_in_tank(doubts, sea, waves, e, bodies);
   if (const double rate = sea.initial ? sea.initial->settle_damping_1_s : 0.0, swing = std::sqrt(e.gravity / e.water_depth);
       rate > 30.0 * swing)

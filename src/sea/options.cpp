@@ -190,7 +190,8 @@ const Section<WavesOptions>& waves_section() {
                   {{"wheeler", "profiles are squeezed or stretched to the surface"},
                    {"vertical", "constant above still water"},
                    {"extrapolated", "the formula is used up to the surface"}},
-                  "How linear kinematics reach the moving surface; nonlinear waves are always extrapolated.")
+                  "How linear kinematics reach the moving surface; nonlinear waves are always extrapolated. Not in a sea of "
+                  "particles.")
           .only_if("model", wave_models().with("stretching"))
           .only_if("second_order", {"false"})
           .integer("seed", &WavesOptions::seed, "-",

@@ -221,7 +221,7 @@ const Section<WavemakerOptions>& wavemaker_section() {
                   "Kind of paddle.")
           .number("ramp_s", &WavemakerOptions::ramp_s, "s",
                   "Time over which the paddle's motion grows smoothly from nothing; where not given, two periods, and 0 with the "
-                  "waves of a file or where the water starts in waves.",
+                  "waves of a file. Where the water starts in waves it is 0.",
                   not_negative())
           .number("start_s", &WavemakerOptions::start_s, "s",
                   "When the paddle starts; negative: while the bodies are still held.", between(-1e6, 1e6))
@@ -241,7 +241,9 @@ const Section<DampingZoneOptions>& damping_zone_section() {
           .number("from_m", &DampingZoneOptions::from_m, "m", "Where the damping begins.")
           .required()
           .number("to_m", &DampingZoneOptions::to_m, "m",
-                  "Where it has its full rate, towards waves its end; below from_m for a zone at the lower end.")
+                  "Where it has its full rate, which holds from there to the tank's end; towards waves where leading has ended. "
+                  "Below "
+                  "from_m for a zone at the lower end.")
           .required()
           .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s",
                   "Full rate; about the waves' angular frequency times 2 to 5, towards waves times 8 to 30.", positive())
@@ -276,9 +278,11 @@ const Section<InitialOptions>& initial_section() {
                   "The sea runs this long before t = 0 with the bodies held where they start, then they are released (the "
                   "paper's start).",
                   not_negative())
-          .number("settle_damping_1_s", &InitialOptions::settle_damping_1_s, "1/s",
-                  "Until t = 0 the water's velocity decays at this rate, which calms particles that settle; not for waves.",
-                  not_negative());
+          .number(
+              "settle_damping_1_s", &InitialOptions::settle_damping_1_s, "1/s",
+              "Until t = 0 the water's velocity decays at this rate, which calms particles that settle; not with waves before "
+              "then.",
+              not_negative());
   return section;
 }
 

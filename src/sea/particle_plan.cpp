@@ -218,6 +218,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
           "sea.initial.state");
   if (waved && waves.ramp_s.value_or(0.0) > 0.0)
     wrong("waves.ramp_s", "has no effect in a sea of particles: give sea.wavemaker.ramp_s");
+  if (waved && waves.stretching != WavesOptions{}.stretching)
+    wrong("waves.stretching", "has no effect in a sea of particles, where velocities go on in a straight line above still water");
   if (waved && wave_models().named(waves.model).nonlinear && !wave_models().named(waves.model).second_order)
     wrong("waves.model",
           "must not be '" + waves.model + "' in a sea of particles: its harmonics are not free waves; use 'stokes2'");
@@ -239,8 +241,21 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   if (o.starts_in_waves() && waved && !planar && t.sides_y == "wall" &&
       (std::abs(std::sin(waves.direction)) > 1e-9 || waves.spreading_exponent))
     wrong("sea.initial.state", "must not have waves that run into the walls of sea.tank.sides_y: let these repeat, or be open");
-  if (o.initial && o.initial->settle_damping_1_s > 0.0 && o.initial->settle_s == 0.0)
-    wrong("sea.initial.settle_damping_1_s", "has no effect: settle_s is 0");
+  const auto ends_led = [&](double end) {
+    return std::ranges::any_of(o.damping_zones, [&](const DampingZoneOptions& zone) {
+      return zone.axis == "y" && zone.towards == "waves" && zone.to_m == end;
+    });
+  };
+  if (o.led_to_waves() && !o.starts_in_waves() && waved && !planar && t.sides_y == "wall" &&
+      (std::abs(std::sin(waves.direction)) > 1e-9 || waves.spreading_exponent) && !(ends_led(t.y_m[0]) && ends_led(t.y_m[1])))
+    wrong("sea.damping_zones",
+          "must not lead to waves that run into the walls of sea.tank.sides_y: let these repeat, or be open, or lead up to both");
+  if (o.initial && o.initial->settle_damping_1_s > 0.0) {
+    const char* key = "sea.initial.settle_damping_1_s";
+    if (o.initial->settle_s == 0.0) wrong(key, "has no effect: settle_s is 0");
+    if (o.starts_in_waves() || o.led_to_waves() || (o.wavemaker && o.wavemaker->start_s < 0.0))
+      wrong(key, "must be 0 where there are waves before t = 0, which it would take away");
+  }
   if (o.wavemaker) {
     const WavemakerOptions& w = *o.wavemaker;
     const double bed = ground.bed_at(t.x_m[0]);
@@ -258,6 +273,8 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     if (const double begin = o.initial ? 0.0 - o.initial->settle_s : 0.0; o.starts_in_waves() && w.start_s > begin)
       wrong("sea.wavemaker.start_s",
             fmt::format("must be {} s, when the sea begins in waves: the paddle would stand in moving water", begin));
+    if (o.initial && o.initial->state == "waves" && w.ramp_s.value_or(0.0) > 0.0)
+      wrong("sea.wavemaker.ramp_s", "must be 0 where the water starts in waves: the paddle would stand in moving water");
     if (!o.initial && w.start_s < 0.0) wrong("sea.wavemaker.start_s", "is before the sea starts: give sea.initial.settle_s");
   }
 
@@ -367,6 +384,15 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
         wrong(key + ".towards", "must be \"rest\" with [sea.wavemaker], whose waves grow and steepen on their way");
       if (o.initial && o.initial->state == "standing")
         wrong(key + ".towards", "must be \"rest\" where waves stand: [waves] travels");
+      const double low = zone.axis == "x" ? std::min(zone.from_m, zone.to_m) : t.x_m[0],
+                   high = zone.axis == "x" ? std::max(zone.from_m, zone.to_m) : t.x_m[1];
+      double highest = std::max(ground.bed_at(low), ground.bed_at(high));
+      for (const auto& point : t.bed_m)
+        if (point[0] > low && point[0] < high) highest = std::max(highest, point[1]);
+      if (highest > -depth + 1e-9 * depth)
+        wrong(key + ".towards", fmt::format("must be \"rest\" where the bed (sea.tank.bed_m) rises to {:.4g} m: [waves] is of a "
+                                            "level bed at environment.water_depth_m",
+                                            highest));
     }
     const auto& sides = zone.axis == "y" ? t.y_m : t.x_m;
     for (const double end : {zone.from_m, zone.to_m})

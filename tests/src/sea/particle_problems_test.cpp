@@ -23,9 +23,9 @@ struct Scene {
     for (const OptionProblem& p : particle_problems(sea, waves, metre_deep, bodies)) all += p.key + " " + p.what + "\n";
     return all;
   }
-  std::string doubted() const {
+  std::string doubted(const BodiesInSea& in_sea = {}) const {
     std::string all;
-    for (const scene::Doubt& doubt : sea_doubts(sea, waves, metre_deep, {})) all += doubt.key + " " + doubt.what + "\n";
+    for (const scene::Doubt& doubt : sea_doubts(sea, waves, metre_deep, in_sea)) all += doubt.key + " " + doubt.what + "\n";
     return all;
   }
 };
@@ -108,4 +108,81 @@ TEST_CASE("boxes of water and obstacles without a particle are refused", "[sea][
   }
   s.sea.water = {{{0.0, 0.0, -1.0}, {1.0, 2.0, 0.0}}}, s.sea.obstacles = {{{1.5, 0.5, -1.0}, {1.9, 1.0, 0.0}}};
   CHECK(s.refused() == "");
+}
+
+TEST_CASE("what waves do not go with in a sea of particles is refused", "[sea][sph][fast]") {
+  using Catch::Contains;
+  const DampingZoneOptions led{.from_m = 3.0, .to_m = 4.0, .rate_1_s = 20.0, .towards = "waves"};
+  Scene s = with_waves(particle_tank());
+  s.waves.height_m = 0.1;
+  SECTION("zones that lead to waves over a slope, or into walls") {
+    s.sea.damping_zones = {led};
+    REQUIRE(s.refused() == "");
+    s.sea.tank->bed_m = {{0.5, -1.0}, {1.0, -0.8}, {2.0, -1.0}};
+    CHECK(s.refused() == "");
+    s.sea.tank->bed_m = {{2.5, -1.0}, {3.5, -0.8}};
+    CHECK_THAT(s.refused(), Contains("sea.damping_zones[0].towards"));
+    s.sea.tank->bed_m.clear();
+    s.waves.direction = 0.3;
+    CHECK_THAT(s.refused(), Contains("walls of sea.tank.sides_y"));
+    DampingZoneOptions low = led, high = led;
+    low.axis = high.axis = "y", low.from_m = 0.8, low.to_m = 0.0, high.from_m = 1.2, high.to_m = 2.0;
+    s.sea.damping_zones = {led, low, high};
+    CHECK(s.refused() == "");
+    s.sea.damping_zones = {led}, s.sea.tank->sides_y = "periodic";
+    CHECK(s.refused() == "");
+  }
+  SECTION("damping before t = 0 where there are waves then") {
+    s.sea.initial = InitialOptions{.settle_s = 1.0, .settle_damping_1_s = 5.0};
+    s.sea.wavemaker = WavemakerOptions{};
+    CHECK(s.refused() == "");
+    SECTION("by an early paddle") { s.sea.wavemaker->start_s = -0.5; }
+    SECTION("by zones") { s.sea.wavemaker.reset(), s.sea.damping_zones = {led}; }
+    SECTION("by the start") { s.sea.wavemaker.reset(), s.sea.initial->state = GENERATE("waves", "standing"); }
+    CHECK_THAT(s.refused(), Contains("sea.initial.settle_damping_1_s must be 0"));
+  }
+  SECTION("a paddle that grows in water that moves") {
+    s.sea.initial = InitialOptions{.state = "waves"};
+    s.sea.wavemaker = WavemakerOptions{.ramp_s = 0.0};
+    CHECK(s.refused() == "");
+    s.sea.wavemaker->ramp_s = 1.0;
+    CHECK_THAT(s.refused(), Contains("sea.wavemaker.ramp_s must be 0"));
+  }
+  SECTION("stretching") {
+    s.sea.initial = InitialOptions{.state = "waves"};
+    CHECK(s.refused() == "");
+    s.waves.stretching = "vertical";
+    CHECK_THAT(s.refused(), Contains("waves.stretching has no effect"));
+  }
+}
+
+TEST_CASE("thin obstacles, bodies behind a zone and spread seas between sides that repeat are doubted", "[sea][sph][fast]") {
+  using Catch::Contains;
+  Scene s = particle_tank();
+  SECTION("an obstacle is as thick as water feels it, or stands on the bed or against a wall") {
+    for (const auto& [box, thin] : std::vector<std::pair<BoxOptions, bool>>{{{{1.0, 0.5, -0.5}, {2.0, 1.5, -0.3}}, true},
+                                                                            {{{1.0, 0.5, -1.0}, {1.2, 1.5, 0.5}}, true},
+                                                                            {{{1.0, 0.5, -0.6}, {2.0, 1.5, -0.3}}, false},
+                                                                            {{{1.0, 0.5, -1.0}, {2.0, 1.5, -0.8}}, false},
+                                                                            {{{3.8, 0.5, -1.0}, {4.0, 1.5, 0.5}}, false}}) {
+      s.sea.obstacles = {box};
+      CAPTURE(box.low_m, box.high_m);
+      CHECK((s.doubted().find("sea.obstacles[0]") != std::string::npos) == thin);
+    }
+  }
+  SECTION("a zone acts from its end to the tank's") {
+    s.sea.damping_zones = {{.from_m = 2.0, .to_m = 3.0, .rate_1_s = 10.0}};
+    for (const auto& [x, within] : {std::pair{3.6, true}, {2.5, true}, {1.0, false}}) {
+      const Eigen::AlignedBox3d box(Eigen::Vector3d(x - 0.2, 0.8, -0.2), Eigen::Vector3d(x + 0.2, 1.2, 0.2));
+      CAPTURE(x);
+      CHECK((s.doubted({.boxes = {{"buoy", box}}}).find("where body buoy is") != std::string::npos) == within);
+    }
+  }
+  SECTION("spreading") {
+    s = with_waves(particle_tank());
+    s.sea.tank->sides_y = "periodic", s.sea.damping_zones = {{.from_m = 3.0, .to_m = 4.0, .rate_1_s = 20.0, .towards = "waves"}};
+    CHECK_THAT(s.doubted(), !Contains("sea.tank.y_m"));
+    s.waves.model = "jonswap", s.waves.spreading_exponent = 4.0;
+    CHECK_THAT(s.doubted(), Contains("sea.tank.y_m"));
+  }
 }
