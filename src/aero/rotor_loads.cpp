@@ -126,10 +126,19 @@ RotorLoad RotorLoads::load(const Wind& wind, double t, const RotorState& now, do
   return load;
 }
 
-void RotorLoads::add_tower_drag(const Wind& wind, double t, const RotorState& now, double ramp,
-                                std::span<Wrench> wrenches) const {
+void RotorLoads::add_tower_drag(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const {
+  add_tower_drag(wind_, t, bodies, wrenches, ramp);
+}
+
+void RotorLoads::add_mean_tower_drag(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
+  add_tower_drag(mean_wind(), t, bodies, wrenches, 1.0);
+}
+
+void RotorLoads::add_tower_drag(const Wind& wind, double t, std::span<const Motion> bodies, std::span<Wrench> wrenches,
+                                double ramp) const {
   const std::optional<std::size_t> body = body_of_tower_drag();
   if (!body) return;
+  const RotorState now = state(t, bodies);
   const TowerLoad drag = tower_->drag(tower_frame(now), wind, t);
   wrenches[*body].add_force(ramp * drag.force, now.hub);
   wrenches[*body].add_moment(ramp * drag.moment);
@@ -229,27 +238,30 @@ void RotorLoads::add_loads(double t, std::span<const Motion> bodies, std::span<W
   const RotorLoad load = this->load(t, now, ramp);
   wrenches[bearing_.body()].add_force(load.force, now.hub);
   wrenches[bearing_.body()].add_moment(load.moment);
-  add_tower_drag(wind_, t, now, ramp, wrenches);
+}
+
+Wind RotorLoads::mean_wind() const {
+  Wind wind = wind_;
+  wind.in_time = nullptr;
+  return wind;
 }
 
 void RotorLoads::add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const {
   constexpr int places = 8;  // of blade 1 in a turn: of three blades' harmonics none below the 24th is mistaken for the mean
-  Wind mean_wind = wind_;
-  mean_wind.in_time = nullptr;
+  const Wind wind = mean_wind();
   RotorState now = state(t, bodies);
-  now.relative_wind = aero::relative_wind(mean_wind, t, now.hub, now.hub_velocity, now.axis);
+  now.relative_wind = aero::relative_wind(wind, t, now.hub, now.hub_velocity, now.axis);
   BladeLoads::Load air;
   RotorLoad sum;
   const double first = now.azimuth;
   for (int place = 0; place < places; ++place) {
     now.azimuth = whole_turns_off(first + 2.0 * pi * place / places);
-    if (blades()) blades()->fill(blades_at(mean_wind, t, now, memory_), true, air);
-    const RotorLoad load = this->load(mean_wind, t, now, 1.0 / places, blades() ? &air : nullptr);
+    if (blades()) blades()->fill(blades_at(wind, t, now, memory_), true, air);
+    const RotorLoad load = this->load(wind, t, now, 1.0 / places, blades() ? &air : nullptr);
     sum.force += load.force, sum.moment += load.moment, sum.shaft_torque += load.shaft_torque;
   }
   if (control_) add_drive(now, sum.shaft_torque, 1.0, sum.moment);
   bearing_.add_load(bodies, wrenches, sum.force, sum.moment);
-  add_tower_drag(mean_wind, t, now, 1.0, wrenches);
 }
 
 }  // namespace spindrift::aero

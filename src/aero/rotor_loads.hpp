@@ -55,11 +55,16 @@ class RotorLoads {
              const RotorPlacement& placement, std::span<const Motion> start, const ControlOptions& control = {},
              double step_s = 0.0, const Eigen::Vector3d& gravity_m_s2 = Eigen::Vector3d::Zero());
 
-  /// Adds the load, times `ramp`, to the rotor body's wrench, and the tower's drag to that of what carries the rotor.
+  /// Adds the rotor's load, times `ramp`, to its body's wrench.
   void add_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
 
   /// The same under the mean wind (the scene's own at the start, without gusts and turbulence), as a mean over a turn of blade 1.
   void add_mean_loads(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
+
+  /// Adds the tower's drag, times `ramp`, to the wrench of what carries the rotor, whatever the rotor's own load is; and the same
+  /// under the mean wind.
+  void add_tower_drag(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp = 1.0) const;
+  void add_mean_tower_drag(double t, std::span<const Motion> bodies, std::span<Wrench> wrenches) const;
 
   /// Blades that bend do not follow the rotor's body at once: adds what they take off its inertia, about its centre of mass,
   /// earth axes, [force; moment]. Rigid ones, and blades under mean loads, are masses of the body.
@@ -126,7 +131,8 @@ class RotorLoads {
   const BladeLoads::Load& blade_load(double t, const RotorState& now) const;
   /// Without what the drive train adds. `air`: of the blades; null for models without sections.
   RotorLoad load(const Wind& wind, double t, const RotorState& now, double ramp, const BladeLoads::Load* air) const;
-  void add_tower_drag(const Wind& wind, double t, const RotorState& now, double ramp, std::span<Wrench> wrenches) const;
+  void add_tower_drag(const Wind& wind, double t, std::span<const Motion> bodies, std::span<Wrench> wrenches, double ramp) const;
+  Wind mean_wind() const;
   void add_drive(const RotorState& now, double torque, double ramp, Eigen::Vector3d& moment) const;
 
   RotorBearing bearing_;

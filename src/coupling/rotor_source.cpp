@@ -95,6 +95,10 @@ void RotorSource::add_to(LoadSources& sources) {
                                 loads.add_mean_loads(t, m, w);
                               else
                                 loads.add_loads(t, m, w, ramp(t));
+                              if (wanted_.mean)
+                                loads.add_mean_tower_drag(t, m, w);
+                              else
+                                loads.add_tower_drag(t, m, w, ramp(t));
                             },
                             {}};
   if (loads.flexible())

@@ -32,7 +32,8 @@ class RotorSource {
 
   /// Of the bodies, from elsewhere than the engineering model.
   using Loads = std::function<void(double, std::span<const Motion>, std::span<Wrench>)>;
-  /// Where they are given, bodies take the load from `loads`, and history has it from `written`. For coupling windows.
+  /// Where they are given, bodies take the rotor's load from `loads`, and history has it from `written`; the tower's drag stays.
+  /// For coupling windows.
   void replace(Loads loads, const aero::RotorLoad* written);
   bool is_replaced() const { return bool(replaced_); }
   /// The air's moment that turns the rotor where the scene has control, as aero::RotorLoads::turn_by has it.

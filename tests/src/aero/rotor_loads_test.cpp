@@ -44,6 +44,7 @@ std::vector<Wrench> loads(const RotorLoads& rotor, double t, const std::vector<M
   std::vector<Wrench> w(bodies.size());
   for (std::size_t i = 0; i < w.size(); ++i) w[i].point = bodies[i].position;
   rotor.add_loads(t, bodies, w, ramp);
+  rotor.add_tower_drag(t, bodies, w, ramp);
   return w;
 }
 

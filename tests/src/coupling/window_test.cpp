@@ -90,6 +90,30 @@ TEST_CASE("a window that fails says why and leaves state and history as they wer
   CHECK(history == window.history());
 }
 
+TEST_CASE("the tower's drag pushes what carries the rotor in every scheme as in the monolithic one", "[coupling][fast]") {
+  const std::string tower =
+      floater + "[aero.tower]\nstations = [[2.0, 1.0, 1.0], [9.0, 1.0, 1.0]]\n[start]\nequilibrium = false\nramp_s = 1.0\n";
+  const std::string scheme = GENERATE("cps", "cps2", "css", "aitken", "iqn_ils");
+  INFO(scheme);
+  // Without a load of the rotor all schemes are the same.
+  const auto pushed = [&](const std::string& by, const std::string& drag) {
+    FloatingSystem floating(
+        scenario(tower, {"coupling.scheme=" + by, "aero.tower.has_drag=" + drag, "aero.thrust_coefficient=1e-9"}));
+    bodies::BodiesState state = make_start(floating).state;
+    std::optional<CoupledWindow> window;
+    if (floating.has_interface()) window.emplace(floating).begin(state);
+    for (int n = 0; n < 4; ++n) {
+      if (window) REQUIRE(window->advance(state).ok());
+      for (int step = 0; !window && step < 5; ++step)
+        REQUIRE(floating.multibody().advance(state, floating.timeline().tick_s(), 1).ok());
+    }
+    return state.motions[0].velocity.x();
+  };
+  const double whole = pushed("monolithic", "true"), without = pushed("monolithic", "false");
+  CHECK(whole - without > 1e-4);
+  CHECK(pushed(scheme, "true") - pushed(scheme, "false") == Approx(whole - without).epsilon(1e-6));
+}
+
 TEST_CASE("the rotor is asked once per window by loose schemes, and its load balances what the body feels", "[coupling][fast]") {
   FloatingSystem floating(scenario(floater, {"coupling.scheme=cps"}));
   CoupledWindow window(floating);
