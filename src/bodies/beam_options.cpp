@@ -146,11 +146,17 @@ void check_beams(scene::Document& document, const NamedBeams& beams, const Named
 
 std::vector<Beam> make_beams(const NamedBeams& beams, const NamedBodies& named, std::span<const Body> bodies,
                              std::span<const Joint> joints) {
-  std::vector<Beam> result;
+  std::vector<BeamPlan> plans;
   for (const auto& [name, o] : beams)
-    result.push_back(make_beam(name, body_index(named, o.bodies[0]), body_index(named, o.bodies[1]), o.start_m, o.end_m, o.across,
-                               read_properties(o), {o.damping[0], o.damping[1]}, bodies, joints));
-  return result;
+    plans.push_back({name,
+                     body_index(named, o.bodies[0]),
+                     body_index(named, o.bodies[1]),
+                     o.start_m,
+                     o.end_m,
+                     o.across,
+                     read_properties(o),
+                     {o.damping[0], o.damping[1]}});
+  return make_beams(plans, bodies, joints);
 }
 
 }  // namespace spindrift::bodies

@@ -18,58 +18,110 @@ beam::End end_of(const Beam& b, std::span<const Motion> motions) {
   return {m.position, m.point(b.end), m.attitude.toRotationMatrix() * b.end_axes, m.velocity, m.omega_earth()};
 }
 
-/// Bodies that joints tie to body j; j alone where they lead to the earth or to the beam's start.
-std::vector<int> carried(int i, int j, std::span<const Joint> joints) {
-  std::vector<int> found{j};
-  for (std::size_t n = 0; n < found.size(); ++n)
-    for (const Joint& joint : joints) {
-      if (joint.i != found[n] && joint.j != found[n]) continue;
-      const int other = joint.i == found[n] ? joint.j : joint.i;
-      if (other == earth || other == i) return {j};
-      if (std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
-    }
-  return found;
+/// What hangs on a beam's end.
+struct Carried {
+  std::vector<int> bodies;
+  std::vector<const BeamPlan*> beams;
+};
+
+/// What joints and other beams tie to the end's body; that body alone where they lead to the earth or to the beam's start.
+Carried carried_by(const BeamPlan& plan, const std::vector<BeamPlan>& all, std::span<const Joint> joints) {
+  Carried found{{plan.j}, {}};
+  bool leads_back = false;
+  const auto follow = [&](int from, int i, int j) {
+    if (i != from && j != from) return false;
+    const int other = i == from ? j : i;
+    leads_back |= other == earth || other == plan.i;
+    if (std::find(found.bodies.begin(), found.bodies.end(), other) == found.bodies.end()) found.bodies.push_back(other);
+    return true;
+  };
+  for (std::size_t n = 0; n < found.bodies.size() && !leads_back; ++n) {
+    const int from = found.bodies[n];
+    for (const Joint& joint : joints) follow(from, joint.i, joint.j);
+    for (const BeamPlan& beam : all)
+      if (&beam != &plan && follow(from, beam.i, beam.j) &&
+          std::find(found.beams.begin(), found.beams.end(), &beam) == found.beams.end())
+        found.beams.push_back(&beam);
+  }
+  return leads_back ? Carried{{plan.j}, {}} : found;
 }
 
-}  // namespace
+/// What a beam's modes see at its end.
+class Tip {
+ public:
+  Tip(const Eigen::Vector3d& at, const Eigen::Matrix3d& axes) : at_(at), axes_(axes) {}
 
-Beam make_beam(std::string name, int i, int j, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
-               const Eigen::Vector3d& across, const beam::Properties& properties, const std::array<double, 2>& damping,
-               std::span<const Body> bodies, std::span<const Joint> joints) {
-  Eigen::Matrix3d axes;
-  axes.col(2) = (end - start).normalized();
-  axes.col(0) = (across - across.dot(axes.col(2)) * axes.col(2)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  beam::LinkEnd tip{.x = {}, .y = {}, .damping = damping};
-  for (const int b : carried(i, j, joints)) {
-    const Body& body = bodies[std::size_t(b)];
-    const Eigen::Matrix3d turn = axes.transpose() * body.initial.attitude.toRotationMatrix();
-    const Eigen::Matrix3d inertia = turn * body.inertia * turn.transpose();
-    const Eigen::Vector3d arm = axes.transpose() * (body.initial.position - end);
-    const Eigen::Vector3d square = arm.cwiseProduct(arm);
-    tip.x.mass += body.mass, tip.y.mass += body.mass;
-    tip.x.first_moment += body.mass * arm.z(), tip.y.first_moment += body.mass * arm.z();
-    tip.x.inertia += inertia(1, 1) + body.mass * (square.x() + square.z());
-    tip.y.inertia += inertia(0, 0) + body.mass * (square.y() + square.z());
-    tip.inertia_z += inertia(2, 2) + body.mass * (square.x() + square.y());
+  void add(const Body& body) {
+    add(body.mass, body.initial.position);
+    const Eigen::Matrix3d turn = axes_.transpose() * body.initial.attitude.toRotationMatrix();
+    const Eigen::Vector3d inertia = (turn * body.inertia * turn.transpose()).diagonal();
+    end_.x.inertia += inertia.y(), end_.y.inertia += inertia.x(), end_.inertia_z += inertia.z();
   }
-  Beam beam{.name = std::move(name),
-            .i = i,
-            .j = j,
-            .start = start,
-            .end = end,
+  /// Straight and rigid: between rows its mass is linear, so three points by Simpson's rule have its moments.
+  void add(const BeamPlan& beam) {
+    const std::vector<double>&at = beam.properties.position, &mass = beam.properties.mass;
+    const Eigen::Vector3d along = (beam.end - beam.start).normalized();
+    for (std::size_t n = 1; n < at.size(); ++n) {
+      const double sixth = (at[n] - at[n - 1]) / 6.0, middle = 0.5 * (mass[n - 1] + mass[n]);
+      add(sixth * mass[n - 1], beam.start + (at[n - 1] - at[0]) * along);
+      add(4.0 * sixth * middle, beam.start + (0.5 * (at[n - 1] + at[n]) - at[0]) * along);
+      add(sixth * mass[n], beam.start + (at[n] - at[0]) * along);
+    }
+  }
+  const beam::LinkEnd& with(const std::array<double, 2>& damping) {
+    end_.damping = damping;
+    return end_;
+  }
+
+ private:
+  void add(double mass, const Eigen::Vector3d& place) {
+    const Eigen::Vector3d arm = axes_.transpose() * (place - at_), square = arm.cwiseProduct(arm);
+    end_.x.mass += mass, end_.y.mass += mass;
+    end_.x.first_moment += mass * arm.z(), end_.y.first_moment += mass * arm.z();
+    end_.x.inertia += mass * (square.x() + square.z());
+    end_.y.inertia += mass * (square.y() + square.z());
+    end_.inertia_z += mass * (square.x() + square.y());
+  }
+  Eigen::Vector3d at_;
+  Eigen::Matrix3d axes_;
+  beam::LinkEnd end_{.x = {}, .y = {}};
+};
+
+Beam make_beam(const BeamPlan& plan, const std::vector<BeamPlan>& all, std::span<const Body> bodies,
+               std::span<const Joint> joints) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = (plan.end - plan.start).normalized();
+  axes.col(0) = (plan.across - plan.across.dot(axes.col(2)) * axes.col(2)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  Tip tip(plan.end, axes);
+  const Carried carried = carried_by(plan, all, joints);
+  for (const int b : carried.bodies) tip.add(bodies[std::size_t(b)]);
+  for (const BeamPlan* beam : carried.beams) tip.add(*beam);
+  Beam beam{.name = plan.name,
+            .i = plan.i,
+            .j = plan.j,
+            .start = plan.start,
+            .end = plan.end,
             .start_axes = axes,
             .end_axes = axes,
-            .link = beam::make_modal_link(properties, tip)};
+            .link = beam::make_modal_link(plan.properties, tip.with(plan.damping))};
   const auto into = [&](int b, Eigen::Vector3d& point, Eigen::Matrix3d& own) {
     if (b == earth) return;
     const Motion& m = bodies[std::size_t(b)].initial;
     point = m.attitude.conjugate() * (point - m.position);
     own = m.attitude.toRotationMatrix().transpose() * own;
   };
-  into(i, beam.start, beam.start_axes);
-  into(j, beam.end, beam.end_axes);
+  into(plan.i, beam.start, beam.start_axes);
+  into(plan.j, beam.end, beam.end_axes);
   return beam;
+}
+
+}  // namespace
+
+std::vector<Beam> make_beams(const std::vector<BeamPlan>& plans, std::span<const Body> bodies, std::span<const Joint> joints) {
+  std::vector<Beam> beams;
+  for (const BeamPlan& plan : plans) beams.push_back(make_beam(plan, plans, bodies, joints));
+  return beams;
 }
 
 LoadSource beam_source(std::vector<Beam> beams, const Eigen::Vector3d& gravity) {

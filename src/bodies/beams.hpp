@@ -21,11 +21,19 @@ struct Beam {
   beam::ModalLink link;
 };
 
-/// A beam from `start` to `end` as the bodies stand initially, earth coordinates; `across` points along its x, as far as it is
-/// square to the beam. What hangs on its end beyond other joints and beams belongs to the body that its modes see.
-Beam make_beam(std::string name, int i, int j, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
-               const Eigen::Vector3d& across, const beam::Properties& properties, const std::array<double, 2>& damping,
-               std::span<const Body> bodies, std::span<const Joint> joints);
+/// A beam as the bodies stand initially, earth coordinates.
+struct BeamPlan {
+  std::string name;
+  int i = earth, j = 0;                                              ///< as in Beam
+  Eigen::Vector3d start = Eigen::Vector3d::Zero(), end = {0, 0, 1};  ///< [m]
+  Eigen::Vector3d across = Eigen::Vector3d::UnitX();                 ///< along its x, as far as square to the beam
+  beam::Properties properties;
+  std::array<double, 2> damping{0, 0};  ///< as in beam::LinkEnd
+};
+
+/// All beams of a system. The modes of each see one body at its end: all that joints and other beams tie to it, in the order of
+/// `plans`.
+std::vector<Beam> make_beams(const std::vector<BeamPlan>& plans, std::span<const Body> bodies, std::span<const Joint> joints);
 
 /// Loads of all beams, their weight by the acceleration `gravity` included.
 LoadSource beam_source(std::vector<Beam> beams, const Eigen::Vector3d& gravity_m_s2);

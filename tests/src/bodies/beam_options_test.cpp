@@ -90,7 +90,8 @@ TEST_CASE("the tower of the DTU 10 MW turbine weighs 628 t and vibrates as its r
   Joint shaft;
   shaft.type = JointType::fixed;
   shaft.i = 0, shaft.j = 1;
-  const Beam beam = make_beam("tower", earth, 0, tower.start_m, tower.end_m, {1, 0, 0}, p, {0, 0}, bodies, std::span(&shaft, 1));
+  const Beam beam = make_beams({{.name = "tower", .start = tower.start_m, .end = tower.end_m, .properties = p}}, bodies,
+                               std::span(&shaft, 1))[0];
   double mass = 0.0;
   for (const beam::Station& s : beam.link.stations) mass += s.mass;
   CHECK(mass == Approx(628443.0).epsilon(1e-3));

@@ -29,10 +29,10 @@ Body nacelle_body() { return examples::body("nacelle", top_mass, {top_inertia, t
 Body support_body(double mass = 8e6) { return examples::body("platform", mass, {6e9, 6e9, 3e9}, {0, 0, -20.0}); }
 
 Beam on_earth(const std::vector<Body>& bodies, std::array<double, 2> damping = {0, 0}) {
-  return make_beam("tower", earth, 0, {0, 0, 0}, {0, 0, 100}, {1, 0, 0}, uniform_tower, damping, bodies, {});
+  return make_beams({{.name = "tower", .end = {0, 0, 100}, .properties = uniform_tower, .damping = damping}}, bodies, {})[0];
 }
 Beam afloat(const std::vector<Body>& bodies) {
-  return make_beam("tower", 0, 1, {0, 0, 0}, {0, 0, 100}, {1, 0, 0}, uniform_tower, {0, 0}, bodies, {});
+  return make_beams({{.name = "tower", .i = 0, .j = 1, .end = {0, 0, 100}, .properties = uniform_tower}}, bodies, {})[0];
 }
 
 /// Relative distance from omega to the nearest frequency among the modes.
@@ -54,6 +54,29 @@ TEST_CASE("a mass on a tower from the earth vibrates in the tower's first two mo
   const beam::Modes exact = beam::modes(uniform_tower.plane_x(), {.tip = end_of_tower(), .base = {}, .elements = 80}, 2);
   CHECK(nearest(modes, exact.omega[0]) < 1e-4);
   CHECK(nearest(modes, exact.omega[1]) < 1e-3);
+}
+
+TEST_CASE("a tower in two pieces vibrates as in one, from the earth or afloat", "[bodies][fast]") {
+  const bool floats = GENERATE(false, true);
+  const double cut = GENERATE(30.0, 50.0, 70.0);
+  const Body flange = examples::body("flange", 1e3, {5e3, 5e3, 1e4}, {0, 0, cut});
+  std::vector<Body> bodies{nacelle_body(), flange};
+  if (floats) bodies.push_back(support_body());
+  const int foot = floats ? 2 : earth;
+  const auto piece = [&](double from, double to, int i, int j) {
+    BeamPlan plan{.name = "", .i = i, .j = j, .start = {0, 0, from}, .end = {0, 0, to}, .properties = uniform_tower};
+    plan.properties.position = {0.0, to - from};
+    return plan;
+  };
+  System system(bodies, {},
+                {beam_source(make_beams({piece(0, cut, foot, 1), piece(cut, 100, 1, 0)}, bodies, {}), Vector3d::Zero())});
+  const Linearisation modes = linearise(system, examples::start(system), 0.0);
+  const beam::EndBody base{8e6, -20.0 * 8e6, 6e9 + 400.0 * 8e6};
+  const beam::Modes exact = floats
+                                ? beam::modes(uniform_tower.plane_x(), {.tip = end_of_tower(), .base = base, .elements = 80}, 3)
+                                : beam::modes(uniform_tower.plane_x(), {.tip = end_of_tower(), .base = {}, .elements = 80}, 1);
+  INFO(cut << " m, " << nearest(modes, exact.omega[floats ? 2 : 0]));
+  CHECK(nearest(modes, exact.omega[floats ? 2 : 0]) < 1e-3);
 }
 
 TEST_CASE("weight on top and the tower's own soften it as its geometric stiffness does", "[bodies][fast]") {
