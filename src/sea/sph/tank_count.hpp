@@ -1,6 +1,6 @@
 // How many particles a tank starts with, counted by columns, faces and volumes without making any: for seas that take long to lay
-// out. Within some per cent of lay_out(), nearer the finer the lattice. Called by particle_sea.cpp and particle_plan.cpp; tested in
-// tests/src/sea/sph/tank_test.cpp. SPDX-License-Identifier: Apache-2.0
+// out. Within some per cent of lay_out(), nearer the finer the lattice. Called by particle_sea.cpp and particle_plan.cpp; tested
+// in tests/src/sea/sph/tank_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
@@ -28,8 +28,8 @@ double lattice_places(const TankPlan& plan, const Parameters& p);
 /// Of the lattice over the bed in a block, as of water or an obstacle.
 template <int dim>
 double places_in(const TankPlan& plan, const Parameters& p, const TankPlan::Block& block);
-/// Whether a box holds a particle of walls, bed, obstacles or surfaces, those of a paddle aside. Few places are looked at where it
-/// does.
+/// Whether a box holds a particle of walls, bed, obstacles or surfaces, those of a paddle aside. Few places are looked at where
+/// it does.
 template <int dim>
 bool holds_wall(const TankPlan& plan, const Parameters& p, const TankPlan::Block& box);
 
