@@ -272,6 +272,8 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
                          "go on from it");
   state_.unpack(bodies);
   steps_ = file.integer("steps");
+  restore_library(floating_, file);
+  restore_fluids(file);  // first: a scheme that begins anew asks the air for its load
   const bool learnt = file.has("coupling/history");
   if (learnt && form_of(file, floating_.scenario().coupling) != form_of(floating_.scenario().coupling)) {
     spdlog::warn("the coupling scheme begins anew: its options are not those of {}", file.path().string());
@@ -279,8 +281,6 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
   } else if (!window_.restore(learnt ? file.read<double>("coupling/history") : std::vector<double>())) {
     throw io::InputError(file.path().string() + ": its coupling history is that of another coupling.scheme");
   }
-  restore_library(floating_, file);
-  restore_fluids(file);
   if (floating_.particles()) place_in_particles(floating_, state_);
   write_log_lines();
   start_clocks();

@@ -63,6 +63,15 @@ class ActuatorAir(Runs):
                     self.assertAlmostEqual(held[-1][column] / alone[-1][column], 1.0, delta=1e-9)
                 self.assertGreater(held[-1]["rotor.thrust_N"], 1e6)
 
+    def test_a_scheme_that_begins_anew_at_a_restart_has_the_air_of_the_checkpoint(self):
+        strong = ["coupling.scheme=iqn_ils", "time.end_s=1.8"]
+        self.run_scene(FLOATING, "run", "--until", 1.2, settings=strong)
+        scene = self.path / "run/scene.toml"
+        self.run_scene(FLOATING.replace("[start]\nair_steps = 10\n", ""), "from", settings=[*strong, "coupling.samples=2", f"start.file={scene}"])
+        self.run_scene(FLOATING, "run", "--restart", "--allow-change", "coupling.samples", settings=[*strong, "coupling.samples=2"])
+        on, begun = self.rows("run"), self.rows("from")
+        self.assertEqual([row["rotor.thrust_N"] for row in on[-2:]], [row["rotor.thrust_N"] for row in begun[-2:]])
+
     def test_the_same_bits_however_it_is_run(self):
         for model, more in (("actuator_line", []), ("actuator_disc", ["wind.event={what='ecd', start_s=0.3}"]),
                             ("actuator_line", ["coupling.scheme=iqn_ils"]), ("actuator_line", ["wind.turbulence={model='kaimal', duration_s=60}", "aero.flow.max_pseudo_steps=20"])):
