@@ -55,7 +55,9 @@ JointLaw::Deflection JointLaw::deflection(std::span<const Motion> bodies) const 
 }
 
 double JointLaw::load(const Deflection& at) const {
-  double load = -stiffness * (at.place - rest) - (damping + quadratic_damping * std::abs(at.rate)) * at.rate -
+  // A spring that turned past half a turn pulls back the other way: over a whole turn it does no work.
+  const double off = turns ? within_half_turn(at.place - rest) : at.place - rest;
+  double load = -stiffness * off - (damping + quadratic_damping * std::abs(at.rate)) * at.rate -
                 friction * at.rate / std::max(std::abs(at.rate), creep_rate);
   if (!places.empty()) load += interpolate_linear(places, loads, at.place);
   return load;

@@ -135,8 +135,8 @@ const Section<JointLawOptions>& rotation_law_section() {
       Section<JointLawOptions>("rotation_law",
                                "Moment on the second body about the axis, and its opposite on the first, by the angle "
                                "(within half a turn) and its rate: the sum of what is given.")
-          .number("stiffness_N_m_rad", &JointLawOptions::stiffness, "N m/rad", "Spring, against the angle from rest_deg.",
-                  not_negative())
+          .number("stiffness_N_m_rad", &JointLawOptions::stiffness, "N m/rad",
+                  "Spring, against the angle from rest_deg, the shorter way round.", not_negative())
           .degrees("rest_deg", &JointLawOptions::rest, "Angle at which the spring has no moment.", between(-180.0, 180.0))
           .number("damping_N_m_s_rad", &JointLawOptions::damping, "N m s/rad", "Damper, against the rate.", not_negative())
           .number("quadratic_damping_N_m_s2_rad2", &JointLawOptions::quadratic_damping, "N m s2/rad2",

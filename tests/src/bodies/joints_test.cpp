@@ -201,6 +201,20 @@ TEST_CASE("a door on a spring swings about its rest at its frequency and gives t
   if (damping + quadratic == 0.0) CHECK(spring.deflection(state.motions).place == Approx(0.0).margin(1e-9));  // a whole period
 }
 
+TEST_CASE("a spring of a joint that turns right round does no work in a turn, wherever it rests", "[bodies][fast]") {
+  const JointLaw spring{.i = earth, .j = 0, .axis = z, .stiffness = 50.0, .rest = GENERATE(0.0, pi / 2, -pi / 2, pi)};
+  constexpr int places = 3600;
+  double work = 0.0, most = 0.0;
+  for (int n = 0; n < places; ++n) {
+    Motion door;
+    door.attitude = Eigen::AngleAxisd(2.0 * pi * (n + 0.5) / places, z);
+    const double moment = spring.load(spring.deflection(std::span(&door, 1)));
+    work += 2.0 * pi / places * moment, most = std::max(most, std::abs(moment));
+  }
+  CHECK(most == Approx(50.0 * pi).epsilon(1e-3));
+  CHECK(std::abs(work) < 1e-3 * most);
+}
+
 TEST_CASE("a slider between two free bodies pulls both, and its friction brings it to rest", "[bodies][fast]") {
   const std::vector<Body> bodies{box("first", {0, 0, 0}), box("second", {2, 0, 0})};
   JointLaw law{.i = 0, .j = 1, .axis = x, .point_i = {1, 0, 0}, .point_j = {-1, 0, 0}, .turns = false, .friction = 3.0};

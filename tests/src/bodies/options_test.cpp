@@ -110,7 +110,7 @@ TEST_CASE("a joint's law is read in degrees, and its table gives the load on the
   CHECK(laws[0].turns);
   CHECK(laws[0].point_j == Vector3d(-1, 0, 0));
   CHECK(laws[0].load({pi / 4, 0.5}) == Approx(7.0 * pi / 4 - 1.0 - 25.0));
-  CHECK(laws[0].load({-3.0, 0.0}) == Approx(7.0 * (3.0 + pi / 2) + 200.0));  // the first row holds
+  CHECK(laws[0].load({-3.0, 0.0}) == Approx(7.0 * (3.0 + pi / 2 - 2.0 * pi) + 200.0));  // the first row holds
 }
 
 TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][fast]") {
