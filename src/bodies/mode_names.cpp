@@ -74,6 +74,8 @@ std::string name_of(const System& system, const BodiesState& state, const Eigen:
 
 }  // namespace
 
+bool stretches_or_twists(std::string_view mode) { return mode.starts_with("stretching of ") || mode.starts_with("torsion of "); }
+
 void name_modes(Linearisation& linearisation, System& system, const BodiesState& state, std::span<const Beam> beams) {
   if (beams.empty() || linearisation.modes.empty()) return;
   // As linearise has it: equal eigenvalues are the same mode.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "src/bodies/beams.hpp"
 #include "src/bodies/linearise.hpp"
@@ -14,5 +15,8 @@ namespace spindrift::bodies {
 /// deforms a beam: "bending in x of tower" (its own axis), "torsion of tower".
 /// @pre `linearisation` is of this system at this state, where its chart is open.
 void name_modes(Linearisation& linearisation, System& system, const BodiesState& state, std::span<const Beam> beams);
+
+/// Whether a mode of this name is a beam's extension or twist: far above what waves and passing blades drive.
+bool stretches_or_twists(std::string_view mode);
 
 }  // namespace spindrift::bodies

@@ -13,6 +13,7 @@
 #include "kernels/linear/dense.hpp"
 #include "src/aero/operation.hpp"
 #include "src/aero/turbine.hpp"
+#include "src/bodies/mode_names.hpp"
 #include "src/scene/models.hpp"
 
 namespace spindrift::coupling {
@@ -184,7 +185,8 @@ LooseVerdict loose_verdict(FloatingSystem& floating, const bodies::BodiesState& 
     thrust[side] = rotor.load(0.0, moved).force.dot(hub.axis);
   }
   verdict.slope_N_s_m = (thrust[0] - thrust[1]) / (2 * change);
-  for (const auto& [name, f] : campbell.platform) verdict.fastest_Hz = std::max(verdict.fastest_Hz, f);
+  for (const auto& [name, f] : campbell.platform)
+    if (!bodies::stretches_or_twists(name)) verdict.fastest_Hz = std::max(verdict.fastest_Hz, f);
   verdict.fastest_Hz = std::max({verdict.fastest_Hz, campbell.rows.back().wave, campbell.rows.back().passing});
 
   const double window = floating.timeline().window_s(), omega = 2 * pi * verdict.fastest_Hz;

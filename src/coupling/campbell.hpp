@@ -56,7 +56,7 @@ struct LooseVerdict {
   double air_mass_kg = 0.0;  ///< that blades moving across their chords carry along, where a turbine file tells
   double slope_N_s_m = 0.0;  ///< thrust lost per m/s downwind
   double mass_ratio() const { return hub_mass_kg > 0.0 ? air_mass_kg / hub_mass_kg : 0.0; }
-  double fastest_Hz = 0.0;  ///< of waves, blades passing and platform modes that oscillate
+  double fastest_Hz = 0.0;  ///< of waves, blades passing and platform modes that oscillate, no stretching or twisting of a beam
   struct Scheme {
     std::string name;
     double window_limit_s;    ///< above it the floating system grows under the rotor's damping; infinite where there is none

@@ -59,6 +59,22 @@ TEST_CASE("a loose scheme will do for the paper's turbine at windows of 0.02 s, 
   CHECK(fine.schemes[2].mass_ratio_limit == Approx(1.0 / 3.0).epsilon(1e-6));
 }
 
+TEST_CASE("a tower that stretches and twists does not count among what a loose scheme must follow", "[coupling][fast]") {
+  const auto floating = floating_of(SPINDRIFT_SOURCE_DIR "/inputs/leble_barakos/flexible_tower.toml", {});
+  const Start start = make_start(*floating);
+  const bodies::Linearisation linear = stability(*floating, start.state).linearisation;
+  const Campbell c = campbell(floating->scenario(), linear, 8.8 * rad_s_per_rpm);
+  const LooseVerdict verdict = loose_verdict(*floating, start.state, c, linear);
+  double stretching = 0.0, rest = 0.0;
+  for (const auto& [name, f] : c.platform) {
+    double& most = name == "stretching of tower" ? stretching : rest;
+    most = std::max(most, f);
+  }
+  INFO(stretching << " Hz, " << rest << " Hz, " << verdict.fastest_Hz << " Hz");
+  CHECK(stretching > 2.0 * rest);
+  CHECK(verdict.fastest_Hz == rest);
+}
+
 TEST_CASE("no loose scheme will do where the air weighs as much as the floating system", "[coupling][fast]") {
   const auto floating = floating_of(
       case3, {"time.end_s=10.0", "time.window_s=0.02", "time.step_s=0.02", "environment.air_density_kg_m3=99.0",
