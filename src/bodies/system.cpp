@@ -89,6 +89,7 @@ struct System::Work {
   StepReport open(BodiesState& state, double t, bool choose);
   bool close(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
   bool advance(double t, double t_end, double h, bool evaluated);
+  bool remember(double t, double h);
   bool knows(const BodiesState& state, double t) const;
   double kinetic_of_opened();
   bool within_bounds();
@@ -296,14 +297,16 @@ System::Work::Needed System::Work::pieces_met(double length) const {
   return most;
 }
 
-/// `opened` from `state` by so many equal steps. `known`: as evaluate() left it.
+/// `opened` from `state` by so many equal steps, but for what is remembered at the end. `known`: as evaluate() left it.
 bool System::Work::advance_pieces(const BodiesState& state, double begin, double end, double length, int pieces, bool known) {
   if (!known) opened = state;
   look_for_onsets(opened.motions);
   const double h = length / pieces;
   for (int piece = 0; piece < pieces; ++piece) {
     const double t = piece == 0 ? begin : begin + piece * h;
-    if (!advance(t, piece + 1 == pieces ? end : begin + (piece + 1) * h, h, known && piece == 0)) return false;
+    const bool last = piece + 1 == pieces;
+    const double t_end = last ? end : begin + (piece + 1) * h;
+    if (!advance(t, t_end, h, known && piece == 0) || (!last && !remember(t_end, h))) return false;
   }
   look_for_onsets(opened.motions);
   return true;
@@ -343,7 +346,12 @@ bool System::Work::advance(double t, double t_end, double h, bool evaluated) {
   if (!within_bounds()) return false;
   if (counts && !count_work(h, kinetic_before)) return false;
   mechanism.turn_joints(opened.joint_angles);
-  memory.remember(t_end, h, opened);
+  return true;
+}
+
+/// What sources remember at t, the end of a step of h that `opened` has made.
+bool System::Work::remember(double t, double h) {
+  memory.remember(t, h, opened);
   return std::ranges::all_of(opened.memory, [](double v) { return std::isfinite(v); }) ||
          fail(StepReport::Trouble::not_finite, -1);
 }
@@ -475,7 +483,7 @@ void System::begin(BodiesState& state, double t_s) {
 
 void System::recall(const BodiesState& state) { w_->memory.recall(state.memory); }
 
-StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces) {
+StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces, Remember end_memory) {
   Work& w = *w_;
   const double begin = double(state.tick) * tick_s, length = double(ticks) * tick_s;
   const double end = double(state.tick + ticks) * tick_s;
@@ -490,7 +498,7 @@ StepReport System::advance(BodiesState& state, double tick_s, std::int64_t ticks
     }
     if (needed.pieces > pieces)
       pieces = int(needed.pieces);
-    else if (done)
+    else if (done && (end_memory == Remember::nothing || w.remember(end, length / pieces)))
       break;
     else
       return w.report;

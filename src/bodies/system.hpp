@@ -13,6 +13,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,6 +67,9 @@ struct Evaluation {
   std::vector<Wrench> joint_reactions;                ///< [joint] on its body j, about the joint's point, driver included
 };
 
+/// What sources have at the end of a step: `nothing` of it where the motions alone are wanted and no step follows from there.
+enum class Remember : std::uint8_t { nothing, end };
+
 class System {
  public:
   System(std::vector<Body> bodies, std::vector<Joint> joints, std::vector<LoadSource> loads,
@@ -102,8 +106,9 @@ class System {
   static constexpr int most_pieces = 4096;
 
   /// One step of `ticks` ticks with the chosen integrator, or so many equal pieces of it; more where it meets what is watched. On
-  /// trouble the state is left as it was. Does not allocate unless the independent set is chosen anew.
-  StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces = 1);
+  /// trouble the state is left as it was. Does not allocate unless the independent set is chosen anew. Sources remember the end
+  /// of each piece, the last once the number of pieces is settled: each call is one of a controller library.
+  StepReport advance(BodiesState& state, double tick_s, std::int64_t ticks, int pieces = 1, Remember = Remember::end);
 
   /// Accelerations and loads by source; the reference is valid until the next call.
   const Evaluation& evaluate(const BodiesState& state, double t_s);

@@ -121,7 +121,8 @@ class ParticleSide final : public BodySide, sea::WindowDriver {
       motions = held_ ? held_motions_ : state_.motions;
     } else {
       const double tick_s = floating_.timeline().tick_s();
-      const bodies::StepReport report = floating_.multibody().advance(next_, tick_s, ticks, pieces_of_step(retry_));
+      const bodies::StepReport report = floating_.multibody().advance(next_, tick_s, ticks, pieces_of_step(retry_),
+                                                                      to_end ? bodies::Remember::end : bodies::Remember::nothing);
       if (!report.ok()) throw floating_.multibody().failure(report, state_, tick_s);
       motions = next_.motions;
     }

@@ -48,6 +48,32 @@ TEST_CASE("a weight that bounces on a spring far too stiff for the step keeps it
   CHECK(lowest < -drop);
 }
 
+TEST_CASE("sources remember the pieces of a step once these are settled, and nothing where no step follows", "[bodies][fast]") {
+  const std::vector<Body> bodies{examples::body("weight", weight_kg, {100, 100, 100}, {0, 0, 0})};
+  int calls = 0;
+  LoadSource counter{.name = "counter", .loads = {}, .added_mass = {}};
+  counter.memory =
+      Memory{1, [](double, std::span<const Motion>, std::span<double> m) { m[0] = 0.0; }, [](std::span<const double>) {},
+             [&](double, double, std::span<const Motion>, std::span<double> m) { ++calls, ++m[0]; }};
+  System system(bodies, {}, {gravity_source(bodies, pull), counter});
+  system.watch({{"line", [](std::span<const Motion> m) { return m[0].position.z() < -drop; }, 31.0 / step_s}});
+  BodiesState state = examples::start(system);
+  system.begin(state, 0.0);
+  double most = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double before = state.memory[0];
+    REQUIRE(system.advance(state, step_s, 1).ok());
+    most = std::max(most, state.memory[0] - before);
+  }
+  CHECK(most > 10.0);  // a step in pieces
+  CHECK(calls == int(state.memory[0]));
+  state = examples::start(system);
+  system.begin(state, 0.0);
+  calls = 0;
+  REQUIRE(system.advance(state, step_s, 1, 1, Remember::nothing).ok());
+  CHECK(calls == 0);
+}
+
 TEST_CASE("a step that meets nothing that is watched is the step it was", "[bodies][fast]") {
   System watched = weight_on(1e9, Integrator::rk4), alone = weight_on(1e9, Integrator::rk4);
   alone.watch({});
