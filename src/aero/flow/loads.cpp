@@ -105,7 +105,7 @@ void gather_wall(const FlowTile& tile, const double* state, const ViscousSetting
                            mu = gas::viscosity(setting.gas, gas::absolute_temperature(setting.gas, q));
               const double distance = distance_to_wall(tile, boundary.where.side, k, j, i);
               const Eigen::Vector3d n(f.nx, f.ny, f.nz), shear = friction - friction.dot(n) * n;
-              if (viscous.active) {
+              if (viscous.active && sticks(*boundary.condition)) {
                 point.y_plus = std::sqrt(rho * shear.norm() / f.area) * distance / mu;
                 point.growth = growth_of_line(tile, boundary.where.side, {i, j, k}, point.y_plus, distance);
               }

@@ -231,6 +231,7 @@ TEST_CASE("what modelled turbulence pushes on a slip wall counts as pressure", "
   for (const WallPoint& p : c.solver->wall_points(tile)) {
     CHECK(p.pressure == Approx(push));
     CHECK(std::hypot(p.traction[0], p.traction[1], p.traction[2]) == 0.0);
+    CHECK(p.y_plus == 0.0);
     area += p.area;
   }
   add_loads(tile, state, residual.viscous(), {}, sums, {});
