@@ -72,7 +72,9 @@ class Half(Runs):
             span = np.ptp(own[column])
             difference = np.std(half[column] - own[column]) / span
             print(f"{column}: half and whole differ by {difference:.4f} of the span", flush=True)
-            self.assertLess(difference, 0.02, column)   # 0.0001 to 0.008, within 0.0001 over starts jittered by 1e-4 of the spacing: not chaotic
+            # Over starts jittered by a hundredth of the spacing 0.015 to 0.030 of the pitch, 0.0012 to 0.005 of the others: the water that the
+            # float puts aside is laid out beside each half by itself.
+            self.assertLess(difference, 0.045 if column == "float.pitch_deg" else 0.01, column)
         for column in ("sea.mass_kg", "sea.kinetic_energy_J", "sea.potential_energy_J"):   # of both halves
             self.assertAlmostEqual(half[column][-1] / own[column][-1], 1.0, delta=0.01)
         for lost in ("y_m", "roll_deg", "yaw_deg"):
