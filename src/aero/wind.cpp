@@ -178,7 +178,8 @@ class WindInTime {
     return middle + std::clamp(side, -half_width(), half_width()) * across(direction);
   }
 
-  /// Mean of each plane of the box, without the wind that the profile has there.
+  /// Mean of each plane of the box along and across the wind, without the wind that the profile has there. Up there is none: what
+  /// rises or sinks over the whole grid would have to come out of the ground, and slowed the wind on its way to the rotor.
   void take_means(const WindProfile& profile) {
     mean_of_planes_ = {.across = 1, .up = 1, .steps = box_.steps, .step_s = box_.step_s, .periodic = box_.periodic};
     const std::size_t points = std::size_t(box_.across) * std::size_t(box_.up);
@@ -190,7 +191,7 @@ class WindInTime {
       for (std::size_t p = 0; p < points; ++p)
         for (std::size_t c = 0; c < 3; ++c) sum[Eigen::Index(c)] += box_.values[(std::size_t(step) * points + p) * 3 + c];
       sum /= double(points), sum.x() -= carried;
-      for (int c = 0; c < 3; ++c) mean_of_planes_.values.push_back(float(sum[c]));
+      for (const double mean : {sum.x(), sum.y(), 0.0}) mean_of_planes_.values.push_back(float(mean));
     }
   }
 
