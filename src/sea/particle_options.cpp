@@ -242,8 +242,7 @@ const Section<DampingZoneOptions>& damping_zone_section() {
           .required()
           .number("to_m", &DampingZoneOptions::to_m, "m",
                   "Where it has its full rate, which holds from there to the tank's end; towards waves where leading has ended. "
-                  "Below "
-                  "from_m for a zone at the lower end.")
+                  "Below from_m for a zone at the lower end.")
           .required()
           .number("rate_1_s", &DampingZoneOptions::rate_1_s, "1/s",
                   "Full rate; about the waves' angular frequency times 2 to 5, towards waves times 8 to 30.", positive())

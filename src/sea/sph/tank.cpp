@@ -68,15 +68,69 @@ class PlacesBySurfaces {
   std::vector<Of> of_;  ///< z fastest; empty where no surface makes walls
 };
 
-/// C = cosh(k (z + h)) / sinh(k h) and S = sinh(k (z + h)) / sinh(k h), in deep water before these overflow; above still water by
-/// the straight line that continues them, as zones lead to waves (damping.hpp): by the formula short harmonics of a sea state
-/// would be several times too fast in its crests.
-std::array<double, 2> profiles(double k, double z, double depth) {
-  constexpr double deep = 300.0;
-  const double under = std::min(z, 0.0), over = k * std::max(z, 0.0), kz = k * (under + depth), kh = k * depth;
-  const double even = kh > deep ? std::exp(k * under) : std::cosh(kz) / std::sinh(kh),
-               odd = kh > deep ? std::exp(k * under) : std::sinh(kz) / std::sinh(kh);
-  return {even + over * odd, odd + over * even};
+/// A wave as water starts in it: what is the same at all places is found once, since a sea has hundreds of them.
+class StartingWave {
+ public:
+  StartingWave(const waves::Component& c, double depth)
+      : c_(c), along_(std::cos(c.direction), std::sin(c.direction), 0.0), depth_(depth), sinh_(std::sinh(c.wave_number * depth)) {
+    of_surface_ = profiles(0.0);
+  }
+
+  /// C = cosh(k (z + h)) / sinh(k h) and S = sinh(k (z + h)) / sinh(k h), in deep water before these overflow; above still water
+  /// by the straight line that continues them, as zones lead to waves (damping.hpp): by the formula short harmonics of a sea
+  /// state would be several times too fast in its crests.
+  std::array<double, 2> profiles(double z) const {
+    constexpr double deep = 300.0;
+    const double k = c_.wave_number, under = std::min(z, 0.0), over = k * std::max(z, 0.0), kz = k * (under + depth_);
+    const bool is_deep = k * depth_ > deep;
+    const double even = is_deep ? std::exp(k * under) : std::cosh(kz) / sinh_, odd = is_deep ? even : std::sinh(kz) / sinh_;
+    return {even + over * odd, odd + over * even};
+  }
+
+  /// Profiles at a place, cosine and sine of the phase there, and the way that the wave goes.
+  struct At {
+    std::array<double, 2> of_z;
+    double cosine, sine;
+    const Eigen::Vector3d& along;
+    /// (U/omega) (-C sin psi, S cos psi) for `amplitude` U/omega [m].
+    Eigen::Vector3d displacement(double amplitude) const {
+      return amplitude * (-of_z[0] * sine * along + of_z[1] * cosine * Eigen::Vector3d::UnitZ());
+    }
+    /// U (C cos psi, S sin psi) [m/s].
+    Eigen::Vector3d velocity(double amplitude) const {
+      return amplitude * (of_z[0] * cosine * along + of_z[1] * sine * Eigen::Vector3d::UnitZ());
+    }
+  };
+  At at(const Eigen::Vector3d& x) const {
+    const double psi = c_.wave_number * along_.dot(x) + c_.phase;
+    return {profiles(x[2]), std::cos(psi), std::sin(psi), along_};
+  }
+
+  double speed() const { return c_.speed_amplitude; }                                ///< U [m/s]
+  double displacement() const { return c_.speed_amplitude / c_.angular_frequency; }  ///< U/omega [m]
+  /// rho (omega/k) U C cos psi [Pa]; of a particle that has risen less rho g (U/omega) S cos psi, both less their value at the
+  /// surface.
+  double pressure_at_place(const At& at, double density) const {
+    return density * (phase_speed() * speed()) * at.of_z[0] * at.cosine;
+  }
+  double pressure_of_particle(const At& at, double density, double gravity) const {
+    const double dynamic = phase_speed() * (at.of_z[0] - of_surface_[0]),
+                 risen = gravity / c_.angular_frequency * (at.of_z[1] - of_surface_[1]);
+    return density * speed() * (dynamic - risen) * at.cosine;
+  }
+
+ private:
+  double phase_speed() const { return c_.angular_frequency / c_.wave_number; }
+  waves::Component c_;
+  Eigen::Vector3d along_;
+  double depth_, sinh_;
+  std::array<double, 2> of_surface_;
+};
+
+std::vector<StartingWave> starting_waves(const TankPlan& plan) {
+  std::vector<StartingWave> all;
+  for (const waves::Component& c : plan.waves) all.emplace_back(c, plan.depth);
+  return all;
 }
 
 /// Where a particle of water at rest is in the motion of the waves at their t = 0, its velocity and its pressure. With
@@ -86,45 +140,29 @@ std::array<double, 2> profiles(double k, double z, double depth) {
 /// the pressure rho [(omega/k) U C - g (U/omega) S] cos psi less its value at the surface. That is zero for a free wave; for the
 /// bound harmonic of a Stokes wave it is what the first harmonic's pressure of second order takes away, at all depths.
 template <int dim>
-void set_in_motion(Seed<dim>& seed, std::span<const waves::Component> waves, double depth, const EosTait& eos, double gravity) {
+void set_in_motion(Seed<dim>& seed, std::span<const StartingWave> waves, const EosTait& eos, double gravity) {
   const Eigen::Vector3d x = to_earth<dim>(seed.position);
-  const auto sum = [&](const Eigen::Vector3d& at, auto&& add) {
-    for (const waves::Component& c : waves) {
-      const Eigen::Vector3d along(std::cos(c.direction), std::sin(c.direction), 0.0);
-      const double psi = c.wave_number * along.dot(at) + c.phase;
-      add(c, along, profiles(c.wave_number, at[2], depth), std::cos(psi), std::sin(psi));
-    }
-  };
-  const auto displacement = [&](const Eigen::Vector3d& at) {
-    Eigen::Vector3d xi = Eigen::Vector3d::Zero();
-    sum(at, [&](const waves::Component& c, const Eigen::Vector3d& along, const auto& of_z, double cosine, double sine) {
-      xi += c.speed_amplitude / c.angular_frequency * (-of_z[0] * sine * along + of_z[1] * cosine * Eigen::Vector3d::UnitZ());
-    });
-    return xi;
-  };
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
   double pressure = eos.pressure(seed.deviation);
-  sum(x, [&](const waves::Component& c, const Eigen::Vector3d&, const auto& of_z, double cosine, double) {
-    const auto of_surface = profiles(c.wave_number, 0.0, depth);
-    const double dynamic = c.angular_frequency / c.wave_number * (of_z[0] - of_surface[0]),
-                 risen = gravity / c.angular_frequency * (of_z[1] - of_surface[1]);
-    pressure += eos.rho0 * c.speed_amplitude * (dynamic - risen) * cosine;
-  });
-  const Eigen::Vector3d now = x + displacement(x + 0.5 * displacement(x));
+  for (const StartingWave& wave : waves) {
+    const StartingWave::At at = wave.at(x);
+    way += at.displacement(wave.displacement());
+    pressure += wave.pressure_of_particle(at, eos.rho0, gravity);
+  }
+  const Eigen::Vector3d middle = x + 0.5 * way;
+  way.setZero();
+  for (const StartingWave& wave : waves) way += wave.at(middle).displacement(wave.displacement());
+  const Eigen::Vector3d now = x + way;
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
-  sum(now, [&](const waves::Component& c, const Eigen::Vector3d& along, const auto& of_z, double cosine, double sine) {
-    v += c.speed_amplitude * (of_z[0] * cosine * along + of_z[1] * sine * Eigen::Vector3d::UnitZ());
-  });
+  for (const StartingWave& wave : waves) v += wave.at(now).velocity(wave.speed());
   seed.position = from_earth<dim>(now), seed.velocity = from_earth<dim>(v), seed.deviation = eos.deviation(pressure);
 }
 
 /// Of a wall that stands in the waves under still water, over that of rest there: what linear theory has at the place [Pa].
-double wave_pressure(const Eigen::Vector3d& x, std::span<const waves::Component> waves, double depth, double density) {
+double wave_pressure(Eigen::Vector3d x, std::span<const StartingWave> waves, double depth, double density) {
+  x[2] = std::max(x[2], -depth);
   double pressure = 0.0;
-  for (const waves::Component& c : waves) {
-    const double psi = c.wave_number * (std::cos(c.direction) * x[0] + std::sin(c.direction) * x[1]) + c.phase;
-    const double dynamic = c.angular_frequency / c.wave_number * c.speed_amplitude;
-    pressure += density * dynamic * profiles(c.wave_number, std::max(x[2], -depth), depth)[0] * std::cos(psi);
-  }
+  for (const StartingWave& wave : waves) pressure += wave.pressure_at_place(wave.at(x), density);
   return pressure;
 }
 
@@ -142,6 +180,7 @@ class Layout {
         cut_(cut_of(dim == 2, plan.mirrored)),
         lattice_(plan, p.spacing),
         layers_(wall_layers(p)),
+        waves_(starting_waves(plan)),
         by_surfaces_(plan, lattice_, layers_ * p.spacing),
         walls_(rows_of_walls()) {
     const double ratio = mean_density_ratio(plan, p);
@@ -305,8 +344,7 @@ class Layout {
     double far = (1.0 + plan_.jitter) * p_.spacing;
     const auto sum = [&](double z) {
       double all = 0.0;
-      for (const waves::Component& c : plan_.waves)
-        all += std::abs(c.speed_amplitude / c.angular_frequency) * profiles(c.wave_number, z, plan_.depth)[0];
+      for (const StartingWave& wave : waves_) all += std::abs(wave.displacement()) * wave.profiles(z)[0];
       return all;
     };
     if (!plan_.waves.empty()) far += sum(sum(0.0));  // at the highest that a particle may be
@@ -438,7 +476,7 @@ class Layout {
         seed.position[dim - 1] = surface - below;
         seed.deviation = p_.eos.hydrostatic_deviation(below, p_.gravity);
       }
-      if (!plan_.waves.empty()) set_in_motion<dim>(seed, plan_.waves, plan_.depth, p_.eos, p_.gravity);
+      if (!plan_.waves.empty()) set_in_motion<dim>(seed, waves_, p_.eos, p_.gravity);
       bool in_tank = plan_.periodic[0] || (seed.position[0] > plan_.x[0] - plan_.paddle_reach && seed.position[0] < plan_.x[1]);
       if constexpr (dim == 3)
         in_tank = in_tank && (plan_.periodic[1] || (seed.position[1] > plan_.y[0] && seed.position[1] < plan_.y[1]));
@@ -466,8 +504,8 @@ class Layout {
     // Beside boxes of water that do not fill the tank walls start without pressure: water will come to them.
     seed.deviation = plan_.water.empty() ? deviation_at(x[dim - 1], surface_of_scene()) : 0.0;
     if (!plan_.waves.empty() && x[dim - 1] < 0.0)
-      seed.deviation = p_.eos.deviation(std::max(
-          0.0, p_.eos.pressure(seed.deviation) + wave_pressure(to_earth<dim>(x), plan_.waves, plan_.depth, p_.eos.rho0)));
+      seed.deviation = p_.eos.deviation(
+          std::max(0.0, p_.eos.pressure(seed.deviation) + wave_pressure(to_earth<dim>(x), waves_, plan_.depth, p_.eos.rho0)));
     seed.owner = owner;
     if (plan_.modified_walls) seed.ghost = ghost_of_wall(x, owner);
     return seed;
@@ -618,6 +656,7 @@ class Layout {
   Cut cut_;
   TankLattice<dim> lattice_;
   int layers_;
+  std::vector<StartingWave> waves_;
   PlacesBySurfaces<dim> by_surfaces_;
   WallRows walls_;
   std::vector<Piece> pieces_;  ///< in the order of identities
