@@ -33,15 +33,11 @@ inline constexpr SstOptions sst_2003{.name = "sst",
                                      .gamma1 = 5.0 / 9.0,
                                      .gamma2 = 0.44,
                                      .least_cross = 1e-10};
-inline constexpr SstOptions sst_2003_vm{.name = "sst_2003_vm",
-                                        .made_by_vorticity = true,
-                                        .limited_by_vorticity = false,
-                                        .carries_pressure = false,
-                                        .limiter = 10.0,
-                                        .limits_omega = true,
-                                        .gamma1 = 5.0 / 9.0,
-                                        .gamma2 = 0.44,
-                                        .least_cross = 1e-10};
+inline constexpr SstOptions sst_2003_vm = [] {
+  SstOptions o = sst_2003;
+  o.name = "sst_2003_vm", o.made_by_vorticity = true, o.carries_pressure = false;
+  return o;
+}();
 
 template <const SstOptions& options>
 struct MenterSst {
