@@ -72,6 +72,12 @@ class ActuatorAir(Runs):
         on, begun = self.rows("run"), self.rows("from")
         self.assertEqual([row["rotor.thrust_N"] for row in on[-2:]], [row["rotor.thrust_N"] for row in begun[-2:]])
 
+    def test_power_is_that_of_the_rotors_own_turning(self):
+        self.run_scene(FLOATING, "rolling", settings=["bodies.platform.omega_rad_s=[0.01, 0.0, 0.0]", "time.end_s=0.6"])
+        last = self.rows("rolling")[-1]
+        self.assertGreater(last["platform.wx_rad_s"], 0.005)
+        self.assertAlmostEqual(last["rotor.power_W"] / (last["rotor.torque_N_m"] * last["rotor.rpm"] * math.pi / 30.0), 1.0, delta=1e-9)
+
     def test_the_same_bits_however_it_is_run(self):
         for model, more in (("actuator_line", []), ("actuator_disc", ["wind.event={what='ecd', start_s=0.3}"]),
                             ("actuator_line", ["coupling.scheme=iqn_ils"]), ("actuator_line", ["wind.turbulence={model='kaimal', duration_s=60}", "aero.flow.max_pseudo_steps=20"])):
