@@ -296,16 +296,17 @@ double greatest_speed(const WindOptions& wind) {
 
 bool has_directions(const WindOptions& wind) { return !wind.table.empty() && !read_wind_table(wind.table).direction.empty(); }
 
+bool rises(const WindOptions& wind) {
+  return !wind.table.empty() && std::ranges::any_of(read_wind_table(wind.table).vertical, [](double v) { return v != 0.0; });
+}
+
 bool turns(const WindOptions& wind) {
   if (wind.event &&
       (wind.event->what == WindEvent::ecd || wind.event->what == WindEvent::edc || wind.event->direction_change != 0.0))
     return true;
   if (wind.table.empty()) return false;
-  const WindTable table = read_wind_table(wind.table);
-  const auto changes = [](const std::vector<double>& column, double from) {
-    return std::ranges::any_of(column, [from](double v) { return v != from; });
-  };
-  return (!table.direction.empty() && changes(table.direction, table.direction.front())) || changes(table.vertical, 0.0);
+  const std::vector<double> directions = read_wind_table(wind.table).direction;
+  return rises(wind) || std::ranges::any_of(directions, [&](double d) { return d != directions.front(); });
 }
 
 Wind wind_of(const WindOptions& wind, const WindSite& site) {

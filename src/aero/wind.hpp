@@ -73,6 +73,8 @@ double greatest_speed(const WindOptions& wind);
 bool has_directions(const WindOptions& wind);
 /// Whether its direction changes in time; throws scene::SceneError where its table cannot be read.
 bool turns(const WindOptions& wind);
+/// Whether a table has it rise or sink; throws likewise.
+bool rises(const WindOptions& wind);
 
 /// In words: "8 m/s, eog at 60 s".
 std::string describe_wind(const WindOptions& wind);

@@ -262,6 +262,18 @@ void check_changing_wind(scene::Document& document, const Scenario& s) {
   }
 }
 
+/// Wind that rises or sinks over the ground would have to come out of it: the flow slows it down on its way to the rotor.
+void check_wind_over_ground(scene::Document& document, const Scenario& s) {
+  const bool table = aero::rises(s.wind);
+  if (!table && s.aero.flow->incidence == 0.0) return;
+  for (const aero::PatchOptions& side : s.aero.flow->boundaries)
+    if (aero::is_wall(aero::of(side.condition)) && (side.patch == "z_min" || side.patch == "z_max"))
+      document.problem(
+          table ? "wind.table" : "aero.flow.incidence_deg",
+          fmt::format("must not have the wind {}: no air goes through patch \"{}\" ({})",
+                      table ? "rise or sink, in vertical_m_s" : "blow upwards", side.patch, aero::of(side.condition).name));
+}
+
 /// Of a rotor that no body carries.
 void check_standing_actuator(scene::Document& document, const Scenario& s) {
   aero::check_actuator(document, s.aero, s.rotor, "rotor.hub_m");
@@ -483,6 +495,7 @@ Scenario read_scenario(scene::Document& document) {
     s.wind.speed_m_s = aero::starting_speed(s.wind), s.wind.direction = aero::starting_direction(s.wind);
     if (s.resolves_air()) s.wind.incidence = s.aero.flow->incidence;
     if (!s.wind.steady() && s.resolves_air()) check_changing_wind(document, s);
+    if (s.has_actuator()) check_wind_over_ground(document, s);
     if (s.wind.turbulence && s.wind.turbulence->inflow_plane_m && !s.resolves_air())
       document.problem("wind.turbulence.inflow_plane_m", "has no effect on blade elements, which take the box as it is");
   } catch (const scene::SceneError& e) {

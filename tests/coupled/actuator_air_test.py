@@ -209,6 +209,15 @@ class ActuatorAir(Runs):
                 self.assertIn(why, said)
                 self.assertFalse((self.path / "run").exists())
 
+    def test_wind_does_not_rise_out_of_the_ground(self):
+        table = self.path / "wind.csv"
+        table.write_text("time_s,speed_m_s,vertical_m_s\n0,11,0\n10,11,0.3\n")
+        for settings, key in (([f"wind.table={table}"], "wind.table"), (["aero.flow.incidence_deg=3"], "aero.flow.incidence_deg")):
+            with self.subTest(key):
+                said = self.run_scene(FLOATING, "run", settings=settings, code=2)
+                self.assertIn(key, said)
+                self.assertIn('no air goes through patch "z_min" (symmetry)', said)
+
 
 if __name__ == "__main__":
     unittest.main()
