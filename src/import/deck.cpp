@@ -63,13 +63,13 @@ std::optional<double> number_in(std::string word) {
   return std::nullopt;
 }
 
-Deck::Deck(const std::filesystem::path& file, char comment) : file_(file) {
+Deck::Deck(const std::filesystem::path& file, const std::string& comments) : file_(file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file)) fail(std::nullopt, "cannot be read");
   std::string text;
   for (int number = 1; std::getline(in, text); ++number) {
-    std::vector<std::string> words = split(text);
-    if (comment != '\0' && (words.empty() || words[0][0] == comment)) continue;
+    std::vector<std::string> words = split(text.substr(0, text.find_first_of(comments)));
+    if (!comments.empty() && words.empty()) continue;
     lines_.push_back({number, std::move(words)});
   }
 }

@@ -27,8 +27,9 @@ std::optional<double> number_in(std::string word);
 
 class Deck {
  public:
-  /// Throws scene::SceneError where the file cannot be read. Lines that begin with `comment` are left out.
-  explicit Deck(const std::filesystem::path& file, char comment = '\0');
+  /// Throws scene::SceneError where the file cannot be read. Where there are marks of comments, what a line has from one of these
+  /// on is left out, and so are lines without a word.
+  explicit Deck(const std::filesystem::path& file, const std::string& comments = "");
 
   const std::filesystem::path& file() const { return file_; }
   /// Line of the first that has one of these names behind its values; names compare without case, underscores and "(1)".

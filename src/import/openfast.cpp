@@ -104,8 +104,10 @@ Imported import_openfast(const std::filesystem::path& main_file, const std::file
   const ImportedEnvironment environment = import_environment(run, elastodyn, system.wet);
   const ImportedWater water = system.wet ? import_water(run, environment.depth, environment.water_density) : ImportedWater{};
   const ImportedRotor turbine = import_rotor(run, elastodyn, rotor, system, blades);
-  const bool has_waves = water.text.find("[waves]") != std::string::npos;
-  const std::string moorings = system.floats ? import_moorings(run, environment, has_waves, lines) : "";
+  const bool moving_water = water.text.find("[waves]") != std::string::npos || water.text.find("\ncurrent_") != std::string::npos;
+  const std::string moorings = system.floats ? import_moorings(run, environment, moving_water, lines) : "";
+  if (!system.floats && main.integer({"CompMooring"}, 0) != 0)
+    run.leave_out("mooring lines: what they hold does not float (CompHydro 0 or CompSub 1)");
   const double step = std::min(system.tower_bends ? flexible_step : rigid_step, turbine.longest_step);
   const ImportedControl control = import_control(run, elastodyn, rotor, !turbine.text.empty(), {step, turbine.longest_step});
   system.controlled = !control.text.empty();

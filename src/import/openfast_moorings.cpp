@@ -27,12 +27,8 @@ std::string ends(const ImportedLine& lowest, const ImportedLine& highest) {
          "\n";
 }
 
-bool on_bed(const ImportedLine& l, const ImportedEnvironment& e) {
-  return l.meets_bed && (!l.at_anchor.empty() || l.anchor.z() <= -e.depth + 1e-6 * e.depth);
-}
-
-std::string bed_keys(const ImportedLine& l, const ImportedEnvironment& e) {
-  if (!on_bed(l, e)) return "bed_contact = false\n";
+std::string bed_keys(const ImportedLine& l) {
+  if (!l.meets_bed) return "bed_contact = false\n";
   return l.bed_friction > 0.0 ? fmt::format("bed_friction = {:.9g}\n", l.bed_friction) : "";
 }
 
@@ -49,19 +45,19 @@ std::string single_line(std::size_t n, const ImportedLine& l, const ImportedEnvi
             fmt::format("drag_coefficient = {:.9g}\naxial_drag_coefficient = {:.9g}\n", d->drag, d->axial_drag) +
             fmt::format("added_mass_coefficient = {:.9g}\naxial_added_mass_coefficient = {:.9g}\n", d->added_mass,
                         d->axial_added_mass);
-    if (on_bed(l, e))
+    if (l.meets_bed)
       text += fmt::format("bed_stiffness_Pa_m = {:.9g}\nbed_damping_Pa_s_m = {:.9g}\n", d->bed_stiffness, d->bed_damping);
   } else {
     text += fmt::format("mass_kg_m = {:.9g}\ndiameter_m = {:.9g}\n", l.mass_per_m, l.diameter);
   }
-  return text + bed_keys(l, e);
+  return text + bed_keys(l);
 }
 
 /// Lines one after another as one of sections, the points between them as its clumps.
 std::string line_of_sections(DeckImport& run, const ImportedRow& row, const ImportedMoorings& all, const ImportedEnvironment& e) {
   const ImportedLine &lowest = all.lines[row.lines.front()], &highest = all.lines[row.lines.back()];
   std::string text = fmt::format("\n[moorings.line_{}]\nmodel = \"composite_catenary\"\n", row.lines.front() + 1) +
-                     ends(lowest, highest) + bed_keys(lowest, e),
+                     ends(lowest, highest) + bed_keys(lowest),
               clumps;
   double distance = 0.0;
   for (std::size_t k = 0; k < row.lines.size(); ++k) {
@@ -75,23 +71,33 @@ std::string line_of_sections(DeckImport& run, const ImportedRow& row, const Impo
     if (point.mass > 0.0 || point.volume > 0.0)
       clumps += fmt::format("[[moorings.line_{}.clumps]]\ndistance_m = {:.9g}\nmass_kg = {:.9g}\nvolume_m3 = {:.9g}\n",
                             row.lines.front() + 1, distance, point.mass, point.volume);
-    if (all.lines[row.lines[k + 1]].bed_friction != lowest.bed_friction && on_bed(lowest, e))
+    if (all.lines[row.lines[k + 1]].bed_friction != lowest.bed_friction && lowest.meets_bed)
       run.leave_out(fmt::format("bed friction of line {}: all of line_{} has that of the section at the anchor",
                                 row.lines[k + 1] + 1, row.lines.front() + 1));
   }
   return text + clumps;
 }
 
+/// Lines of a scene are in its waves and current; those of MoorDyn in still water, in the deck's water, or in that of a file.
+void note_water(DeckImport& run, const Deck& moordyn) {
+  const bool given = moordyn.find({"WaveKin", "WaterKin"}).has_value();
+  const std::string water = given ? moordyn.text({"WaveKin", "WaterKin"}) : "0";
+  if (water.empty() || water == "0")
+    run.leave_out("MoorDyn's still water round the lines (WaterKin 0): here they are in the scene's waves and current");
+  else if (!number_in(water) && water != "SEASTATE")
+    run.leave_out(fmt::format("MoorDyn's water of {} round the lines: here they are in the scene's waves and current", water));
+}
+
 }  // namespace
 
-std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool has_waves, ImportedLines choice) {
+std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool moving_water, ImportedLines choice) {
   const int kind = run.main.integer({"CompMooring"}, 0);
   if (kind == 0) return "";
   if (kind != 1 && kind != 3) {
     run.leave_out(fmt::format("mooring lines of CompMooring {}", kind));
     return "";
   }
-  const Deck file(run.main.path({"MooringFile"}));
+  const Deck file(run.main.path({"MooringFile"}), kind == 1 ? "" : "!#%");  // in MAP++ "#" marks what it looks for
   const std::string file_name = file.file().filename().string();
   const ImportedMoorings all =
       kind == 1 ? read_map(file, environment.depth, run.left_out) : read_moordyn(file, environment.depth, run.left_out);
@@ -111,8 +117,7 @@ std::string import_moorings(DeckImport& run, const ImportedEnvironment& environm
                   "chain by default");
   if (kind == 3 && at_rest && any_dynamic)
     run.leave_out(file_name + ": lines that meet at a point with others stay dynamic in spite of --quasi-static-lines");
-  if (kind == 3 && any_dynamic && file.integer({"WaveKin", "WaterKin"}, 0) == 0 && has_waves)
-    run.leave_out("MoorDyn's still water round the lines (WaveKin 0): here they are in the scene's waves");
+  if (kind == 3 && any_dynamic && moving_water) note_water(run, file);
 
   std::string text;
   std::size_t written = 0;

@@ -439,18 +439,54 @@ ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::strin
   return {found, junctions};
 }
 
+namespace {
+
+/// A rule of MoorDyn's with its title, in capitals.
+std::string title_of(const Deck& file, std::size_t rule) {
+  std::string text;
+  for (std::string w : file.words(rule)) {
+    for (char& c : w) c = char(std::toupper(static_cast<unsigned char>(c)));
+    text += w + " ";
+  }
+  return text;
+}
+
+bool has_one_of(const std::string& text, std::initializer_list<const char*> words) {
+  return std::ranges::any_of(words, [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+/// Tables of MoorDyn that no scene has: rods, loads from outside, lines that a controller moves or that break.
+void note_other_tables(const Deck& file, const std::string& name, std::vector<std::string>& left_out) {
+  for (std::size_t n = 0; n + 3 < file.size(); ++n) {
+    if (!is_rule(file, n) || is_rule(file, n + 1) || is_rule(file, n + 2) || is_rule(file, n + 3)) continue;
+    std::string title = title_of(file, n);
+    if (has_one_of(title, {"LINE", "POINT", "CONNECTION", "BOD", "OPTIONS", "OUTPUT", "INPUT"})) continue;
+    std::erase_if(title, [](char c) { return c == '-' || c == '='; });
+    const std::size_t from = title.find_first_not_of(' ');
+    if (from != std::string::npos)
+      left_out.push_back(fmt::format("{}: the table {}", name, title.substr(from, title.find_last_not_of(' ') + 1 - from)));
+  }
+}
+
+/// Options of MoorDyn that say what the scene's lines meet.
+void note_options(const Deck& file, const std::string& name, double depth, std::vector<std::string>& left_out) {
+  if (file.find({"WtrDpth"}))
+    if (const std::string own = file.text({"WtrDpth"}); number_in(own) != depth)
+      left_out.push_back(fmt::format("{}: the bed of its own, WtrDpth {}; here it is {:g} m deep", name, own, depth));
+  if (const double across = file.number({"mu_kT"}, 0.0), along = file.number({"mu_kA"}, 0.0); across != along)
+    left_out.push_back(
+        fmt::format("{}: bed friction across the lines, mu_kT {:g}: it is mu_kA {:g} all round", name, across, along));
+}
+
+}  // namespace
+
 ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::string>& left_out) {
+  const std::string file_name = file.file().filename().string();
+  note_other_tables(file, file_name, left_out);
+  note_options(file, file_name, depth, left_out);
   const auto section_if = [&](std::initializer_list<const char*> words) -> std::optional<std::size_t> {
-    for (std::size_t n = 0; n < file.size(); ++n) {
-      if (!is_rule(file, n)) continue;
-      std::string text;
-      for (std::string w : file.words(n)) {
-        for (char& c : w) c = char(std::toupper(static_cast<unsigned char>(c)));
-        text += w + " ";
-      }
-      for (const char* word : words)
-        if (text.find(word) != std::string::npos) return n + 1;
-    }
+    for (std::size_t n = 0; n < file.size(); ++n)
+      if (is_rule(file, n) && has_one_of(title_of(file, n), words)) return n + 1;
     return std::nullopt;
   };
   const auto section = [&](std::initializer_list<const char*> words) {
@@ -464,7 +500,8 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   std::map<std::string, Type> types;
   const std::size_t dictionary = section({"LINE TYPES", "LINE DICTIONARY"});
   const std::vector<std::string>& heading = file.words(dictionary);
-  const auto bending = std::size_t(std::find(heading.begin(), heading.end(), "EI") - heading.begin());
+  const auto place_of = [&](const char* name) { return std::size_t(std::ranges::find(heading, name) - heading.begin()); };
+  const std::size_t bending = place_of("EI"), lift = place_of("Cl");
   // Version 1 calls the coefficients Can, Cat, Cdn, Cdt and has no bending.
   const std::size_t damped = file.column(dictionary, {"BA/-zeta", "BA/-Zeta", "CIntDamp"}),
                     drag = file.column(dictionary, {"Cd", "Cdn"}), added = file.column(dictionary, {"Ca", "Can"}),
@@ -483,8 +520,17 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
                 .added_mass = positive("Ca", added),
                 .axial_added_mass = positive("CaAx", axial_added)}});
     if (bending < heading.size() && w.size() > bending && at(bending) != 0.0)
-      left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file.file().filename().string(), w[0]));
+      left_out.push_back(fmt::format("{}: bending stiffness of line type {}", file_name, w[0]));
+    if (lift < heading.size() && w.size() > lift && at(lift) != 0.0)
+      left_out.push_back(fmt::format("{}: lift of vortices, Cl, of line type {}", file_name, w[0]));
   });
+  // The platform is the scene's: what MoorDyn adds to it at a point or a body is not. Without volume the coefficient CA is none.
+  const auto note_own = [&](const std::string& what, const std::vector<std::string>& names, const std::vector<std::string>& w) {
+    std::vector<std::string> own;
+    for (std::size_t column = what.rfind("body", 0) == 0 ? 8 : 5; column < std::min(names.size(), w.size()); ++column)
+      if (in_lower_case(names[column]).rfind("ca", 0) != 0 && number_in(w[column]) != 0.0) own.push_back(names[column]);
+    if (!own.empty()) left_out.push_back(fmt::format("{}: {} of {} of the platform", file_name, fmt::join(own, ", "), what));
+  };
   // Points of a body have its axes. Those that are part of the platform or the bed, unturned, are known.
   struct LineBody {
     bool known = false;
@@ -501,6 +547,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
         return values;
       }();
       const PointKind kind = LinePoint{in_lower_case(w[1]), {}}.kind();
+      if (kind == PointKind::moved) note_own("body " + w[0], file.words(*list), w);
       line_bodies["body" + w[0]] = {(kind == PointKind::moved || kind == PointKind::fixed) &&
                                         in_lower_case(w[1]).find("pin") == std::string::npos && place[3] == 0.0 &&
                                         place[4] == 0.0 && place[5] == 0.0,
@@ -513,7 +560,8 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     file.rows(n, 1, words_of_point(file, table));
     const auto at = [&](std::size_t column) { return file.to_number(w[column], n); };
     std::string kind = in_lower_case(w[1]);
-    Eigen::Vector3d place(at(2), at(3), at(4));
+    const std::string height = in_lower_case(w[4]);
+    Eigen::Vector3d place(at(2), at(3), height == "seabed" || height == "ground" || height == "floor" ? -depth : at(4));
     if (const auto body = line_bodies.find(kind); body != line_bodies.end()) {
       if (!body->second.known)
         file.fail(
@@ -534,7 +582,9 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
       const std::vector<std::string>& names = file.words(table);
       for (std::size_t column = 5; column < std::min(names.size(), w.size()); ++column)
         if ((names[column] == "FX" || names[column] == "FY" || names[column] == "FZ") && at(column) != 0.0)
-          left_out.push_back(fmt::format("{}: the force {} on point {}", file.file().filename().string(), names[column], w[0]));
+          left_out.push_back(fmt::format("{}: the force {} on point {}", file_name, names[column], w[0]));
+    } else if (point.kind() == PointKind::moved) {
+      note_own("point " + w[0], file.words(table), w);
     }
     enter(file, n, points, w[0], point);
   });
@@ -550,11 +600,17 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     for (const std::string& point : {w[a], w[b]})
       if (!points.count(point)) file.fail(n, fmt::format("names point {}, which is not in the table of points", point));
     const Type& t = types[w[type]];
-    ImportedLine line{{},        {},          length_of(file, n, w[length], w[a], w[b]), t.diameter,
-                      t.mass,    t.stiffness, file.number({"FrictionCoefficient"}, 0.0), true,
+    ImportedLine line{{},        {},          length_of(file, n, w[length], w[a], w[b]),          t.diameter,
+                      t.mass,    t.stiffness, file.number({"mu_kA", "FrictionCoefficient"}, 0.0), true,
                       t.dynamics};
     const LinePoint &one = points.at(w[a]), &other = points.at(w[b]);
     if (!place_ends(line, one, other)) return left_out.push_back(not_tied(file, w[0], one, other));
+    // The bed of a scene's line is at its anchor, where it has one: of an anchor that is part of the bed.
+    if (const double above = line.at_anchor.empty() ? depth + line.anchor.z() : 0.0; above > 1e-6 * depth) {
+      line.meets_bed = above < 0.05 * depth;
+      left_out.push_back(fmt::format("{}: the bed {:.4g} m under the anchor of line {}: {}", file_name, above, w[0],
+                                     line.meets_bed ? "it is at the anchor's level" : "the line does not meet it"));
+    }
     const double given = file.to_number(w[segments], n), least = std::max(2.0, given);
     if (given != std::floor(given) || given < 1.0 || given > 1000.0)
       file.fail(n, fmt::format("has {} segments: a whole number from 1 to 1000 is wanted", w[segments]));
@@ -564,8 +620,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
     const double critical = line.length / least * std::sqrt(t.stiffness * t.mass);
     line.dynamics->damping_ratio = t.damping <= 0.0 ? -t.damping : t.damping / critical;
     if (line.dynamics->damping_ratio > 1.0) {
-      left_out.push_back(fmt::format("{}: internal damping of line {} beyond the critical one of its segments",
-                                     file.file().filename().string(), w[0]));
+      left_out.push_back(fmt::format("{}: internal damping of line {} beyond the critical one of its segments", file_name, w[0]));
       line.dynamics->damping_ratio = 1.0;
     }
     found.push_back(line);

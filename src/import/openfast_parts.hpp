@@ -79,7 +79,7 @@ WrittenTurbine write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const
 struct ImportedLine {
   Eigen::Vector3d anchor, fairlead;
   double length = 0.0, diameter = 0.0, mass_per_m = 0.0, axial_stiffness = 0.0, bed_friction = 0.0;
-  bool meets_bed = true;  ///< false: MAP++'s OMIT_CONTACT
+  bool meets_bed = true;  ///< at the level of its anchor, if it has one; false: MAP++'s OMIT_CONTACT
   /// Of MoorDyn's lines, which are dynamic: keys beyond those above, as a scene has them.
   struct Dynamics {
     int segments = 20;
@@ -101,6 +101,7 @@ struct ImportedMoorings {
 };
 /// Lines of MAP++ are in rest at all times.
 ImportedMoorings read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
+/// A file without its comments.
 ImportedMoorings read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
 
 /// Lines from the bed to the platform without a branch, and the points between them, as indices; a line alone is one.

@@ -64,7 +64,7 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& elastodyn, const RotorFr
                            ImportedBlades blades);
 
 /// [moorings] and [junctions]. `has_waves`: the scene.
-std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool has_waves, ImportedLines lines);
+std::string import_moorings(DeckImport& run, const ImportedEnvironment& environment, bool moving_water, ImportedLines lines);
 
 /// [control]; no text where the rotor keeps its speed.
 struct ImportedControl {

@@ -198,7 +198,7 @@ Outline outline_of(const Deck& foil) {
   const bool apart = word.starts_with('@');
   const std::filesystem::path path = apart ? foil.beside(word.substr(1)) : foil.file();
   if (!std::filesystem::exists(path)) return {.fault = fmt::format("{} is not there", path.filename().string())};
-  const Deck file = apart ? Deck(path, '!') : foil;
+  const Deck file = apart ? Deck(path, "!") : foil;
   const auto head = file.find({"NumCoords"});
   const int count = head ? file.integer({"NumCoords"}, 0) : 0;
   if (count < 10) return {.fault = "the aerofoil file has no coordinates"};
@@ -267,7 +267,7 @@ WrittenTurbine write_turbine(const Deck& ad, const RotorFrame& r, const std::fil
   for (const BladeNode& n : nodes) {
     if (n.polar < 1 || std::size_t(n.polar) > files)
       blade.fail(n.line, fmt::format("names polar {}; {} has {}", n.polar, ad.file().filename().string(), files));
-    if (!decks.contains(n.polar)) decks.emplace(n.polar, Deck(ad.beside(ad.words(names + std::size_t(n.polar) - 1)[0]), '!'));
+    if (!decks.contains(n.polar)) decks.emplace(n.polar, Deck(ad.beside(ad.words(names + std::size_t(n.polar) - 1)[0]), "!"));
   }
   const std::map<int, Outline> outlines = outlines_of(decks, written.left_out);
 

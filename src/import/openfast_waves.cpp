@@ -39,7 +39,7 @@ std::string stretching(DeckImport& run, const Deck& waves, bool second_order) {
 
 /// WaveMod 5: an elevation in time, in two columns after lines of heading.
 std::string waves_of_file(DeckImport& run, const Deck& waves) {
-  const Deck file(waves.beside(waves.text({"WvKinFile"}) + ".Elev"), '!');
+  const Deck file(waves.beside(waves.text({"WvKinFile"}) + ".Elev"), "!");
   std::ofstream out(run.folder / "elevation.csv");
   out << "# From " << file.file().filename().string() << ".\ntime_s,elevation_m\n";
   std::size_t rows = 0;

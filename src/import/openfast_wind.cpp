@@ -75,7 +75,7 @@ std::size_t columns_of(const Deck& file) {
 /// upwards.
 std::string uniform_wind(DeckImport& run, const Deck& w, double hub_height) {
   const double all_turned = w.number({"PropagationDir"}, 0.0);
-  const Deck file(w.path({"FileName_Uni", "Filename"}), '!');
+  const Deck file(w.path({"FileName_Uni", "Filename"}), "!");
   std::ofstream out(run.folder / "wind.csv");
   out << "# From " << file.file().filename().string() << ".\ntime_s,speed_m_s,direction_deg,vertical_m_s\n";
   double shear = 0.0, before = -std::numeric_limits<double>::infinity();

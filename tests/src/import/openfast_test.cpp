@@ -648,6 +648,62 @@ TEST_CASE("MoorDyn's lines and older names are read too", "[import][fast]") {
   CHECK((line.drag_coefficient == 1.0 && line.added_mass_coefficient == 1.0 && line.axial_drag_coefficient == 0.0));
 }
 
+namespace {
+
+/// One line of MoorDyn from this anchor and with these rows beside it.
+SmallDeck deck_of_moordyn(const std::string& anchor, const std::string& rows, const std::string& options) {
+  SmallDeck deck;
+  deck.replace("main.fst", "1 CompMooring", "3 CompMooring");
+  deck.files["map.dat"] =
+      "--- MoorDyn input ---\nof a test\n--- LINE TYPES ---\nName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx Cl\n(-) (m) (kg/m) "
+      "(N) (N-s/-) (-) (-) (-) (-) (-) (-)\nchain 0.1 100 4e8 -1 0 1 1 0 0 0.5\n---- POINTS ----\nID Attachment X Y Z M V CdA "
+      "CA\n(#) (-) (m) (m) (m) (kg) (m^3) (m^2) (-)\n1 Fixed 500 0 " +
+      anchor + " 0 0 0 0\n\n2 Vessel 4 0 -30 50e3 10 0 1  # a clump\n---- LINES ----\n" +
+      "ID LineType AttachA AttachB UnstrLen NumSegs Outputs\n(#) (name) (#) (#) (m) (-) (-)\n1 chain 1 2 540 20 -\n" + rows +
+      "---- OPTIONS ----\n0.001 dtM\n" + options;
+  return deck;
+}
+
+}  // namespace
+
+TEST_CASE("comments and blank lines of MoorDyn are none of its rows", "[import][fast]") {
+  const coupling::Scenario s = deck_of_moordyn("-200", "\n#2 chain 1 2 560 20 -\n! 3 chain 1 2 570 20 -\n", "").scenario();
+  CHECK(s.moorings.size() == 1);
+}
+
+TEST_CASE("a line of MoorDyn meets the bed at its anchor's level, unless that is high over the bed", "[import][fast]") {
+  const auto contact = [](const std::string& anchor) {
+    const SmallDeck deck = deck_of_moordyn(anchor, "", "");
+    CHECK(has_word(deck.import().left_out, "m under the anchor of line 1") == (anchor != "-200" && anchor != "SeaBed"));
+    return deck.scenario().moorings[0].options.bed_contact;
+  };
+  CHECK(contact("-200"));
+  CHECK(contact("SeaBed"));
+  CHECK(contact("-198"));
+  CHECK_FALSE(contact("-150"));
+}
+
+TEST_CASE("what MoorDyn has beside its lines is carried or named", "[import][fast]") {
+  const SmallDeck deck = deck_of_moordyn(
+      "-200",
+      "---- EXTERNAL LOADS ----\nID Object Fext Blin Bquad CSys\n(#) (name) (N) (Ns/m) (Ns2/m2) (-)\n1 Point2 -1e6 0 0 G\n",
+      "SEASTATE WaterKin\n0.7 mu_kT\n0.6 mu_kA\n\"bathy.txt\" WtrDpth\n");
+  CHECK(deck.scenario().moorings[0].options.bed_friction == 0.6);
+  const std::vector<std::string> left_out = deck.import().left_out;
+  for (const char* what : {"the table EXTERNAL LOADS", "WtrDpth bathy.txt", "mu_kT 0.7", "lift of vortices", "M, V of point 2"}) {
+    CAPTURE(what);
+    CHECK(has_word(left_out, what));
+  }
+  CHECK_FALSE(has_word(left_out, "MOORDYN INPUT"));
+  CHECK_FALSE(has_word(left_out, "round the lines"));
+  SmallDeck still = deck;
+  still.replace("map.dat", "SEASTATE WaterKin\n", "\"wk.dat\" WaterKin\n");
+  CHECK(has_word(still.import().left_out, "wk.dat round the lines"));
+  SmallDeck fixed = deck;
+  fixed.replace("main.fst", "1 CompHydro", "0 CompHydro");
+  CHECK(has_word(fixed.import().left_out, "mooring lines: what they hold does not float"));
+}
+
 TEST_CASE("free points of MoorDyn are junctions of the scene", "[import][fast]") {
   const bool first_version = GENERATE(true, false);
   SmallDeck deck;
