@@ -356,6 +356,11 @@ class PartsTest(unittest.TestCase):
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "good")   # a hundred-thousandth of it: a line that is just taut
             run.values[run.columns.index("line.tension_N")][7] = -100.0
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Lines"], "bad")
+            run.values[run.columns.index("line.tension_N")][:] = np.where(t < 10.0, 500.0, 1e5)
+            for line, said in (({"model": "lumped_mass", "mass_kg_m": 20.0, "rest_length_m": 100.0, "segments": 20}, "slack: line 25 %"),
+                               ({"model": "catenary"}, "none pushes"), ({"model": "spring_damper"}, "none goes slack")):
+                run.scene["moorings"] = {"line": line}
+                self.assertTrue({c.title: c for c in verdict.health(run)}["Lines"].text.split(" of the time")[0].endswith(said))
             run.values[run.columns.index("float.z_m")] = 0.05 * t
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "warn")
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Coupling"], "good")
