@@ -85,6 +85,7 @@ struct LineLumpedMass {
   double normal_added_mass = 1.0, tangential_added_mass = 0.0;  ///< on the displaced mass [-]
   double gravity = 9.81, water_density = 1025.0;
   LineBed bed;
+  bool anchored = false;  ///< node 0 is held by the earth: where that is under the bed, the bed does not push it
   std::vector<LineClump> clumps;
 
   double segment() const { return length / segments; }
@@ -159,7 +160,7 @@ struct LineLumpedMass {
     double mass_across, mass_along;
   };
   NodeLoad node_load(double piece, const Eigen::Vector3d& tangent, const LineEnd& node, const LineWater& water,
-                     double middle = 0.0) const {
+                     double middle = 0.0, bool meets_bed = true) const {
     const double displaced = water_density * area() * piece;
     const double wet = wet_share(piece, tangent, node.position, water.surface, middle);
     NodeLoad load{Eigen::Vector3d(0.0, 0.0, (wet * displaced - mass_per_m * piece) * gravity), mass_per_m * piece,
@@ -174,7 +175,8 @@ struct LineLumpedMass {
       load.force += wet * displaced * ((1.0 + normal_added_mass) * across + (1.0 + tangential_added_mass) * with);
       load.mass_across += wet * normal_added_mass * displaced, load.mass_along += wet * tangential_added_mass * displaced;
     }
-    if (const double depth = bed.depth(node.position); depth > 0.0) load.force += bed.force(piece * diameter, node, depth);
+    if (const double depth = meets_bed ? bed.depth(node.position) : 0.0; depth > 0.0)
+      load.force += bed.force(piece * diameter, node, depth);
     return load;
   }
 
@@ -228,7 +230,7 @@ struct LineLumpedMass {
     }
     const auto end = [&](int i, const LineEnd& e) {
       const Eigen::Vector3d q = tangent(nodes, i);
-      return node_load(0.5 * l0, q, e, water(i, e.position), half_segment_middle(i, q)).force;
+      return node_load(0.5 * l0, q, e, water(i, e.position), half_segment_middle(i, q), i > 0 || !anchored).force;
     };
     LineForces f;
     f.on_fairlead = end(segments, ends.fairlead) - scratch.pull.back();

@@ -12,7 +12,7 @@ namespace spindrift {
 
 /// Views of a checked table: distances strictly increasing, tensions not decreasing (so that the line never releases energy by
 /// stretching), slopes by monotone_slopes. Below the table the first tension holds (a slack line stays slack); beyond it the last
-/// slope continues.
+/// slope of `slope` continues.
 struct LineTable {
   static constexpr std::string_view name = "table";
   std::span<const double> distance;  ///< [m]

@@ -24,6 +24,7 @@ LineLumpedMass nodes_of(const LineOptions& o, const LineEnvironment& environment
               .stiffness = o.bed_stiffness_Pa_m,
               .damping = o.bed_damping_Pa_s_m,
               .friction = o.bed_friction};
+  line.anchored = o.anchor_body == "earth";
   for (const ClumpOptions& c : o.clumps) {
     const int node = std::clamp(int(std::lround(c.distance_m / line.segment())), 1, line.segments - 1);
     line.clumps.push_back({node, c.mass_kg, c.volume_m3, c.drag_area_m2, c.added_mass_coefficient});

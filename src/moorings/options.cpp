@@ -143,8 +143,7 @@ const scene::Section<LineOptions>& line_section() {
           .only_if("model", line_models().with("clumps"))
           .path("table", &LineOptions::table,
                 "CSV file with columns distance_m, tension_N: both increasing. Below the first row its tension holds, beyond the "
-                "last "
-                "the last slope goes on.")
+                "last the slope goes on, that of the last two rows at least.")
           .only_if("model", line_models().with("table"))
           .required()
           .one_of({"axial_stiffness_N", "stiffness_N_m"})

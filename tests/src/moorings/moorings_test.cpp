@@ -222,6 +222,21 @@ TEST_CASE("a dynamic line at rest pulls as the catenary does, with memory and wi
   CHECK((loads(m, start())[0].force - still).norm() < 0.01 * still.norm());
 }
 
+TEST_CASE("the bed does not push an anchor that lies under it", "[moorings][fast]") {
+  const std::vector<double> side{-2000.0, 2000.0};
+  const LineEnvironment flat{.bed = std::make_shared<const Bed>(side, side, std::vector<double>(4, chain().anchor_m->z()))};
+  const auto tension = [&](double deeper) {
+    Moorings m(names, start(), flat);
+    LineOptions line = chain();
+    line.anchor_m->z() -= deeper;
+    m.add("line", line);
+    std::vector<double> memory(m.memory_size());
+    m.begin(0.0, start(), memory);
+    return m.tensions(start())[0].anchor;
+  };
+  CHECK(tension(0.1) == Approx(tension(0.0)).epsilon(0.01));
+}
+
 TEST_CASE("a weight on a dynamic line pulls on its body, at rest and in the equilibrium that looks for it", "[moorings][fast]") {
   Moorings plain(names, start()), heavy(names, start());
   LineOptions line = chain();
@@ -233,6 +248,17 @@ TEST_CASE("a weight on a dynamic line pulls on its body, at rest and in the equi
   std::vector<double> memory(heavy.memory_size());
   heavy.begin(0.0, start(), memory);
   CHECK((loads(heavy, start())[0].force - steady).norm() < 1e-3 * steady.norm());
+}
+
+TEST_CASE("beyond its table a line goes on with a slope, also one that softens", "[moorings][fast]") {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_softening_line.csv";
+  std::ofstream(file) << "distance_m,tension_N\n100,0\n101,3000\n110,3500\n";
+  LineOptions line;
+  line.model = "table", line.body = "platform", line.table = file.string();
+  line.fairlead_m = {0, 0, -4}, line.anchor_m = {0, 119, -4};
+  Moorings m(names, start());
+  m.add("line", line);
+  CHECK(m.tensions(start())[0].fairlead == Approx(4000.0));
 }
 
 TEST_CASE("a dynamic line is a function of its memory alone: the same bits after a restart", "[moorings][fast]") {
