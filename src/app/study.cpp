@@ -116,22 +116,36 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   return checked;
 }
 
+/// Once, whatever number of runs has it.
+void add_once(std::vector<scene::Problem>& problems, const scene::Problem& problem) {
+  if (std::ranges::none_of(problems, [&](const scene::Problem& p) { return p.key == problem.key && p.value == problem.value; }))
+    problems.push_back(problem);
+}
+
 /// Misspelt columns are found before anything runs.
 void check_columns(const scene::Study& study, const std::string& rung, const std::vector<std::string>& columns,
                    std::vector<scene::Problem>& problems) {
   if (columns.empty()) return;
   const auto check = [&](const std::string& key, const std::string& column) {
     if (std::find(columns.begin(), columns.end(), column) != columns.end()) return;
-    const std::string quoted = fmt::format("\"{}\"", column);
-    if (std::ranges::any_of(problems, [&](const scene::Problem& p) { return p.key == key && p.value == quoted; }))
-      return;  // told of a run before
     const std::string near = scene::nearest(column, columns);
-    problems.push_back({study.file, 0, key, quoted,
+    add_once(problems, {study.file, 0, key, fmt::format("\"{}\"", column),
                         fmt::format("is no column of {}{}", rung, near.empty() ? "" : "; did you mean \"" + near + "\"?")});
   };
   for (const auto& [metric, options] : study.metrics) check(fmt::format("metrics.{}.column", metric), options.column);
   if (study.load_cases)
     for (const std::string& column : study.load_cases->columns) check("load_cases.columns", column);
+}
+
+/// What is taken of a run begins before its end.
+void check_starts(const scene::Study& study, const std::string& rung, double end_s, std::vector<scene::Problem>& problems) {
+  const auto check = [&](const std::string& key, double from_s) {
+    if (from_s >= end_s)
+      add_once(problems, {study.file, 0, key, fmt::format("{:g}", from_s),
+                          fmt::format("must be before the end of {}, {:g} s", rung, end_s)});
+  };
+  for (const auto& [metric, options] : study.metrics) check(fmt::format("metrics.{}.from_s", metric), options.from_s);
+  if (study.load_cases) check("load_cases.from_s", study.load_cases->from_s);
 }
 
 struct TimeRange {
@@ -156,15 +170,13 @@ void check_range(const scene::Study& study, const std::string& rung, double end_
     const double from_s = options.from_s, until_s = std::min(options.until_s.value_or(end_s), end_s);
     const double both_s = std::min(until_s, reference.to_s) - std::max(from_s, reference.from_s);
     if (until_s <= from_s || both_s >= least * (until_s - from_s)) continue;
-    const std::string key = "metrics." + metric;
-    if (std::ranges::any_of(problems, [&](const scene::Problem& p) { return p.key == key; })) continue;  // of a run before
-    problems.push_back(
-        {study.file, 0, key, "",
-         fmt::format(
-             "the reference {} covers {:g} to {:g} s, which is {:.3g} % of the {:g} to {:g} s taken of {}; at least {:g} % "
-             "are needed: give a longer history, or from_s and until_s within it",
-             study.reference->history, reference.from_s, reference.to_s, 100.0 * std::max(0.0, both_s) / (until_s - from_s),
-             from_s, until_s, rung, 100.0 * least)});
+    add_once(problems,
+             {study.file, 0, "metrics." + metric, "",
+              fmt::format(
+                  "the reference {} covers {:g} to {:g} s, which is {:.3g} % of the {:g} to {:g} s taken of {}; at least {:g} % "
+                  "are needed: give a longer history, or from_s and until_s within it",
+                  study.reference->history, reference.from_s, reference.to_s, 100.0 * std::max(0.0, both_s) / (until_s - from_s),
+                  from_s, until_s, rung, 100.0 * least)});
   }
 }
 
@@ -189,6 +201,7 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::
     if (!first) {
       first = scene.forecast;
       check_columns(study, rung.name, first->columns, problems);
+      if (scene.end_s) check_starts(study, rung.name, *scene.end_s, problems);
       if (reference && scene.end_s) check_range(study, rung.name, *scene.end_s, *reference, problems);
     }
     out["runs"].push_back(

@@ -34,6 +34,7 @@ class LoadCases:
         self.exponents = self.options["wohler_exponents"]
         self.rungs = [r for r in plan["rungs"] if any(results.get(run["name"], {}).get("exit_code") == 0 for run in r["runs"])]
         self.missing = [run["name"] for r in plan["rungs"] for run in r["runs"] if results.get(run["name"], {}).get("exit_code") != 0]
+        self.without = {}  # by column: finished runs that give no numbers of it
         self.cases = {(r["name"], c): self._case(r, c, results, history) for r in self.rungs for c in self.options["columns"]}
 
     def _case(self, rung, column, results, history):
@@ -44,6 +45,7 @@ class LoadCases:
             time, read = history(run["name"])
             t, x = measures.cut(time, read(column), self.options["from_s"], None)
             if len(t) < 2 or not np.all(np.isfinite(x)):
+                self.without.setdefault(column, []).append(run["name"])
                 continue
             rows.append({"mean": measures.mean(t, x), "deviation": measures.deviation(t, x), "min": float(np.min(x)), "max": float(np.max(x)),
                          "damage": [damage_rate(t, x, m) for m in self.exponents]})
@@ -76,26 +78,27 @@ class LoadCases:
                               "rung": rung["name"], "seeds": case["seeds"]})
         return found
 
-    def shares(self):
-        """Share of the life of each case that fatigues, by name of its rung: its wind bin's, in equal parts where several stand in it."""
+    def shares(self, column):
+        """Share of the life of each case that fatigues and has that column, by name of its rung: its wind bin's, in equal parts where
+        several stand in it."""
         name = self.options["wind_axis"]
         if not name:
             return {}
         axis = [a["name"] for a in self.plan["axes"]].index(name)
         speeds = [float(v) for v in self.plan["axes"][axis]["values"]]
         of_bin = bin_shares(speeds, self.options["mean_wind_m_s"], self.options["weibull_shape"])
-        tired = [r for r in self.rungs if r["fatigue"] and r["at"] and any(self._of(r, c) for c in self.options["columns"])]
+        tired = [r for r in self.rungs if r["fatigue"] and r["at"] and self._of(r, column)]
         beside = [sum(r["at"][axis] == p for r in tired) for p in range(len(speeds))]
         return {r["name"]: of_bin[r["at"][axis]] / beside[r["at"][axis]] for r in tired}
 
     def lifetime(self):
         """Of each column and exponent: the range whose equivalent_cycles do the damage of the life."""
-        shares, seconds = self.shares(), 3600.0 * HOURS_A_YEAR * self.options["years"]
+        seconds = 3600.0 * HOURS_A_YEAR * self.options["years"]
         found = []
-        for column in self.options["columns"] if shares else []:
-            for k, m in enumerate(self.exponents):
-                parts = {name: share * seconds * c["damage_rate"][k] for name, share in shares.items()
-                         if (c := self.cases.get((name, column)))}
+        for column in self.options["columns"]:
+            shares = self.shares(column)
+            for k, m in enumerate(self.exponents if shares else []):
+                parts = {name: share * seconds * self.cases[name, column]["damage_rate"][k] for name, share in shares.items()}
                 total = math.fsum(parts.values())
                 worst = max(parts, key=parts.get, default=None)
                 found.append({"column": column, "exponent": m, "range": (total / self.options["equivalent_cycles"]) ** (1.0 / m),
@@ -103,12 +106,17 @@ class LoadCases:
         return found
 
     def result(self):
-        shares = self.shares()
+        shares = {column: self.shares(column) for column in self.options["columns"]}
         notes = []
-        if shares:
-            notes.append(f"the cases cover {100.0 * math.fsum(shares.values()):.3g} % of the life; the rest does no damage here")
+        if any(shares.values()):
+            covered = {column: f"{100.0 * math.fsum(parts.values()):.3g} %" for column, parts in shares.items()}
+            for share in dict.fromkeys(covered.values()):
+                of = [column for column in covered if covered[column] == share]
+                whose = "" if len(of) == len(covered) else " of " + ", ".join(of)
+                notes.append(f"the cases cover {share} of the life{whose}; the rest does no damage here")
         if self.missing:
             notes.append("without: " + ", ".join(self.missing))
+        notes += [f"without {column} of {', '.join(names)}: no numbers from from_s on" for column, names in self.without.items()]
         return {"options": self.options, "cases": [c for c in self.cases.values() if c], "extremes": self.extremes(),
                 "lifetime": self.lifetime(), "shares": shares, "notes": notes}
 
@@ -121,7 +129,7 @@ def as_csv(result):
     rows.writerow(["case", "column", "seeds", "share_of_life", "mean", "deviation", "mean_of_minima", "mean_of_maxima", "least", "largest",
                    *[f"equivalent_1Hz_m{m:g}" for m in exponents]])
     for c in result["cases"]:
-        rows.writerow([c["rung"], c["column"], c["seeds"], f"{result['shares'].get(c['rung'], 0.0):.6g}",
+        rows.writerow([c["rung"], c["column"], c["seeds"], f"{result['shares'][c['column']].get(c['rung'], 0.0):.6g}",
                        *[f"{c[k]:.6g}" for k in ("mean", "deviation", "min", "max", "least", "largest")], *[f"{e:.6g}" for e in c["equivalent"]]])
     return out.getvalue()
 

@@ -268,7 +268,7 @@ def _load_cases(study):
     parts += "<h3>Cases</h3>" + table(
         [("case", True), ("column", True), ("seeds", False), ("share of life", False), ("mean", False), ("deviation", False), ("mean of minima", False),
          ("mean of maxima", False), *[(f"1 Hz range, m = {m:g}", False) for m in exponents]],
-        [(c["rung"], c["column"], c["seeds"], found["shares"].get(c["rung"], 0.0), c["mean"], c["deviation"], c["min"], c["max"], *c["equivalent"])
+        [(c["rung"], c["column"], c["seeds"], found["shares"][c["column"]].get(c["rung"], 0.0), c["mean"], c["deviation"], c["min"], c["max"], *c["equivalent"])
          for c in found["cases"]])
     return parts + "".join(f"<p>{page.escape(note)}.</p>" for note in found["notes"])
 

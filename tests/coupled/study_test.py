@@ -135,7 +135,9 @@ measure = "last"
     def test_what_is_wrong_is_found_before_anything_runs(self):
         for old, new, said in (('"buoy.z_m"', '"buoy.z_mm"', 'did you mean "buoy.z_m"'),
                                ("waves.components=40", "waves.component=40", "waves.component"),
-                               ('variant = "base-step_0.025"', 'variant = "base-step_0.25"', "is no run of this study")):
+                               ('variant = "base-step_0.025"', 'variant = "base-step_0.25"', "is no run of this study"),
+                               ('column = "buoy.z_m"', 'from_s = 40.0\ncolumn = "buoy.z_m"', "metrics.heave.from_s = 40: must be before the end of base-step_0.1, 10 s"),
+                               ("[metrics.pitch]", '[load_cases]\nfrom_s = 40.0\ncolumns = ["buoy.z_m"]\n[metrics.pitch]', "load_cases.from_s = 40: must be before the end")):
             done = self.study(STUDY.replace(old, new))
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
             self.assertIn(said, done.stdout + done.stderr)

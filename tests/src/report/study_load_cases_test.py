@@ -66,7 +66,7 @@ class Table(unittest.TestCase):
     def test_two_cases_of_one_wind_share_its_time(self):
         p = plan()
         p["rungs"].append({**p["rungs"][1], "name": "other-wind_10", "runs": [{"name": "other-wind_10"}]})
-        shares = cases(p, lambda name: sine(1.0)).shares()
+        shares = cases(p, lambda name: sine(1.0)).shares("load")
         self.assertAlmostEqual(shares["normal-wind_10"], shares["other-wind_10"])
         self.assertAlmostEqual(sum(shares.values()), sum(study_load_cases.bin_shares([6.0, 10.0, 14.0], 10.0, 2.0)))
         self.assertNotIn("gust", shares)
@@ -81,6 +81,21 @@ class Table(unittest.TestCase):
         self.assertIn("without: gust", found["notes"])
         self.assertEqual(len(study_load_cases.as_csv(found).splitlines()), 1 + 3)
         self.assertIn("design extremes", study_load_cases.as_text(found))
+
+    def test_a_finished_run_without_numbers_is_named_and_its_wind_is_not_covered(self):
+        broken = sine(1.0)
+        broken[5000] = math.nan
+        p = plan(columns=["load", "other"])
+        names = [run["name"] for r in p["rungs"] for run in r["runs"]]
+        read = lambda name: lambda column: broken if column == "load" and name.startswith("normal-wind_14") else sine(1.0)
+        found = study_load_cases.LoadCases(p, {n: {"exit_code": 0} for n in names}, lambda name: (TIME, read(name))).result()
+        self.assertEqual([n for n in found["notes"] if n.startswith("without")],
+                         ["without load of normal-wind_14/seed_0, normal-wind_14/seed_1: no numbers from from_s on"])
+        bins = study_load_cases.bin_shares([6.0, 10.0, 14.0], 10.0, 2.0)
+        self.assertAlmostEqual(sum(found["shares"]["load"].values()), sum(bins[:2]))
+        self.assertAlmostEqual(sum(found["shares"]["other"].values()), sum(bins))
+        self.assertIn(f"the cases cover {100.0 * sum(bins[:2]):.3g} % of the life of load; the rest does no damage here", found["notes"])
+        self.assertEqual(len(study_load_cases.as_csv(found).splitlines()), 1 + 4 + 3)
 
 
 if __name__ == "__main__":
