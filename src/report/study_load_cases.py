@@ -114,6 +114,8 @@ class LoadCases:
                 of = [column for column in covered if covered[column] == share]
                 whose = "" if len(of) == len(covered) else " of " + ", ".join(of)
                 notes.append(f"the cases cover {share} of the life{whose}; the rest does no damage here")
+            if beside_the_axes := [r["name"] for r in self.rungs if r["fatigue"] and not r["at"]]:
+                notes.append("no share of life: " + ", ".join(beside_the_axes))
         if self.missing:
             notes.append("without: " + ", ".join(self.missing))
         notes += [f"without {column} of {', '.join(names)}: no numbers from from_s on" for column, names in self.without.items()]

@@ -97,6 +97,12 @@ class Table(unittest.TestCase):
         self.assertIn(f"the cases cover {100.0 * sum(bins[:2]):.3g} % of the life of load; the rest does no damage here", found["notes"])
         self.assertEqual(len(study_load_cases.as_csv(found).splitlines()), 1 + 4 + 3)
 
+    def test_a_case_beside_the_axes_that_would_fatigue_is_named(self):
+        p = plan()
+        for fatigue, notes in ((False, []), (True, ["no share of life: gust"])):
+            p["rungs"][-1]["fatigue"] = fatigue
+            self.assertEqual([n for n in cases(p, lambda name: sine(1.0)).result()["notes"] if n.startswith("no share")], notes)
+
 
 if __name__ == "__main__":
     unittest.main()
