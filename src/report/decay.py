@@ -1,4 +1,4 @@
-"""Free decays: period and damping of a motion that swings by itself, from its peaks. Called by page.py; tested in tests/src/report.
+"""Free decays: period and damping of a motion that swings by itself, from its peaks. Called by page.py and study_measures.py; tested in tests/src/report.
 SPDX-License-Identifier: Apache-2.0"""
 import functools
 import math
@@ -33,20 +33,24 @@ def extremes(time, values):
     return np.array(at), np.array(height)
 
 
+def swings(time, values):
+    """Times of the peaks and troughs and the ranges between them, up to the first range that is too small."""
+    at, height = extremes(time, values)
+    ranges = np.abs(np.diff(height))
+    small = np.flatnonzero(ranges < SMALLEST * ranges[:1])
+    count = small[0] if len(small) else len(ranges)
+    return at[: count + 1], ranges[:count]
+
+
 def decay_of(time, values, column=""):
     """None where the values are not one motion that swings out, or goes on without damping. Ranges from peak to trough need no rest position; their logarithm falls by
     pi zeta / sqrt(1 - zeta^2) a half period (the logarithmic decrement)."""
     if len(time) < 20 or not np.isfinite(values).all():
         return None
-    at, height = extremes(time, values)
-    if len(at) < LEAST_SWINGS + 1:
-        return None
-    ranges = np.abs(np.diff(height))
-    small = np.flatnonzero(ranges < SMALLEST * ranges[0])
-    count = small[0] if len(small) else len(ranges)
+    at, ranges = swings(time, values)
+    count = len(ranges)
     if count < LEAST_SWINGS:
         return None
-    at, ranges = at[: count + 1], ranges[:count]
     halves = np.diff(at)
     if ranges[-1] > GROWTH * ranges[0] or (ranges[1:] > 1.05 * ranges[:-1]).any() or np.ptp(halves) > 0.5 * np.median(halves):
         return None

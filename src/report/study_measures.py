@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+import decay
+
 OF_TWO_HISTORIES = ("rms", "max")
 
 
@@ -41,7 +43,10 @@ def upward_crossings(t, x):
 
 
 def period(t, x):
-    """Mean time between upward crossings of the mean; nan where there are fewer than two."""
+    """Of a decay as in the report, else the mean time between upward crossings of the mean; nan where there are fewer than two. A decay's
+    mean is crossed no more where it has died out, but by any ripple."""
+    if found := decay.decay_of(t, x):
+        return found.period
     times = upward_crossings(t, x - mean(t, x))
     return float((times[-1] - times[0]) / (len(times) - 1)) if len(times) > 1 else math.nan
 
@@ -58,11 +63,9 @@ def extremes(x):
 
 
 def damping(t, x):
-    """Damping ratio from the slope of the logarithm of successive half-swings of a decay about its end; nan where there are fewer than
-    three swings."""
-    turns = extremes(x)[1:-1]
-    swings = np.abs(np.diff(turns))
-    swings = swings[swings > 1e-3 * swings.max()] if len(swings) else swings
+    """Damping ratio from the slope of the logarithm of successive half-swings of a decay, those of the report; nan where there are fewer
+    than three."""
+    _, swings = decay.swings(t, x)
     if len(swings) < 3:
         return math.nan
     slope = np.polyfit(np.arange(len(swings)), np.log(swings), 1)[0]

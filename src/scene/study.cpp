@@ -40,7 +40,8 @@ constexpr std::array measures{
     MeasureWord{Measure::peak, "peak", "difference of the largest absolute values"},
     MeasureWord{Measure::amplitude, "amplitude", "difference of the amplitudes at frequency_Hz, by least squares"},
     MeasureWord{Measure::phase, "phase", "difference of the phases at frequency_Hz [deg]"},
-    MeasureWord{Measure::period, "period", "difference of the mean periods between upward crossings of the mean [s]"},
+    MeasureWord{Measure::period, "period",
+                "difference of the mean periods, of a decay between its extremes, else between upward crossings of the mean [s]"},
     MeasureWord{Measure::damping, "damping", "difference of the damping ratios by the decrement of successive extremes"},
     MeasureWord{Measure::damage, "damage",
                 "difference of the damage-equivalent ranges at 1 Hz: rainflow count after ASTM E1049, exponent wohler_exponent"}};

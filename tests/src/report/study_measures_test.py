@@ -28,6 +28,18 @@ class Quantities(unittest.TestCase):
         x = 7.0 + np.exp(-zeta * t) * np.cos(math.sqrt(1.0 - zeta**2) * t)
         self.assertAlmostEqual(measures.quantity(metric("damping"), t, x), zeta, delta=2e-5)
 
+    def test_a_ripple_that_is_left_of_a_decay_is_no_swing(self):
+        t, zeta = np.arange(0.0, 400.0, 0.1), 0.05
+        w = 2.0 * math.pi / 20.0
+        x = np.exp(-zeta * w * t) * np.cos(math.sqrt(1.0 - zeta**2) * w * t) + 2e-3 * np.sin(2.0 * math.pi / 3.0 * t)
+        self.assertAlmostEqual(measures.quantity(metric("damping"), t, x) / zeta, 1.0, delta=0.02)
+        self.assertAlmostEqual(measures.quantity(metric("period"), t, x) / (20.0 / math.sqrt(1.0 - zeta**2)), 1.0, delta=0.01)
+
+    def test_the_period_of_what_is_no_decay_is_that_of_crossings(self):
+        t = np.linspace(0.0, 200.0, 4001)
+        x = np.sin(2.0 * math.pi * 0.1 * t) + 0.3 * np.sin(2.0 * math.pi * 0.307 * t)   # more peaks than crossings
+        self.assertAlmostEqual(measures.quantity(metric("period"), t, x), 10.0, delta=0.1)
+
     def test_rainflow_counts_the_example_of_the_standard(self):
         counts = {}
         for size, count in measures.rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2]):  # ASTM E1049-85, figure 6
