@@ -63,12 +63,19 @@ def decay_of(time, values, column=""):
                  zeta(float(falls[-part:].mean())), len(ranges))
 
 
+def is_driven(joint):
+    """Does a driver move it?"""
+    drivers = [joint[kind] for kind in ("rotation", "translation") if isinstance(joint.get(kind), dict)]
+    return any(value for driver in drivers for key, value in driver.items() if key not in ("period_s", "phase_deg"))
+
+
 def is_free(run):
-    """Nothing drives the bodies of the scene for good: no waves, no rotor that turns, no paddle."""
+    """Nothing drives the bodies of the scene for good: no waves, no rotor that turns, no paddle, no joint's driver."""
     scene, waves = run.scene, run.scene.get("waves") or {}
-    wavy = waves.get("model") not in (None, "none") and (waves.get("height_m") or 0.0) > 0.0
+    wavy = waves.get("model") not in (None, "none") and waves.get("height_m", math.inf) > 0.0   # those of a file have no height
     paddle = isinstance(scene.get("sea"), dict) and bool(scene["sea"].get("wavemaker"))
-    return not wavy and not paddle and not quantities.rotors_of(run.columns)
+    driven = any(is_driven(joint) for joint in (scene.get("joints") or {}).values() if isinstance(joint, dict))
+    return not wavy and not paddle and not driven and not quantities.rotors_of(run.columns)
 
 
 @functools.lru_cache(maxsize=8)

@@ -549,7 +549,7 @@ def _marched(run):
 def _is_towed(run):
     """A joint to the earth gives the bodies a motion, which need not come to rest."""
     joints = run.scene.get("joints") or {}
-    return any("earth" in (j.get("bodies") or []) and (j.get("translation") or j.get("rotation")) for j in joints.values() if isinstance(j, dict))
+    return any("earth" in (j.get("bodies") or []) and decay.is_driven(j) for j in joints.values() if isinstance(j, dict))
 
 
 def _settled(run):

@@ -77,6 +77,16 @@ class DecayTest(unittest.TestCase):
             synthetic_run.write(folder, table=table, log="", scene=scene + "[waves]\nmodel = 'airy'\nheight_m = 2.0\nperiod_s = 10.0\n")
             self.assertEqual(str(page.decays(RunData(folder))), "")
 
+    def test_what_a_joint_or_waves_of_a_file_drive_is_no_free_decay(self):
+        t = 0.1 * np.arange(1500)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.pitch_deg": swing(t, 10.0, 0.0)}
+        joint = "[joints.shaker]\nbodies = ['earth', 'float']\n[joints.shaker.rotation]\nspeed_rpm = 0.0\nphase_deg = 90.0\namplitude_deg = "
+        for more, count in (("", 1), (joint + "0.0\n", 1), (joint + "2.0\nperiod_s = 10.0\n", 0), ("[waves]\nmodel = 'none'\n", 1),
+                            ("[waves]\nmodel = 'airy'\nheight_m = 0.0\n", 1), ("[waves]\nmodel = 'elevation'\nfile = 'eta.csv'\n", 0)):
+            with self.subTest(more), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene="[bodies.float]\nmass_kg = 1.0\n" + more)
+                self.assertEqual(len(decay.decays(RunData(folder))), count)
+
 
 if __name__ == "__main__":
     unittest.main()
