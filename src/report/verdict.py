@@ -253,22 +253,28 @@ def trouble(run):
 
 
 def _draft(run):
-    """Where the mean height of the first body is, and where the mean vertical load of the sea has it by the volume of its cylinders."""
+    """Where the mean height of the first body is, and where the mean vertical load of the sea has it by the volume of its cylinders. None where
+    that takes more than upright ones, of one width where they pass through the waterline."""
     bodies = quantities.bodies_of(run.columns)
     if not bodies or _value(run.scene, "sea", "model") != "sph":
         return None
     body = bodies[0]
-    cylinders = _value(run.scene, "bodies", body, "cylinders")
-    if not cylinders or f"{body}.sea.fz_N" not in run.columns:
+    shapes = _value(run.scene, "bodies", body) or {}
+    if any(shapes.get(kind) for kind in ("boxes", "spheres", "meshes")) or f"{body}.sea.fz_N" not in run.columns:
         return None
     rho, g = _value(run.scene, "environment", "water_density_kg_m3") or 1025.0, _value(run.scene, "environment", "gravity_m_s2") or 9.81
     area = volume = draft = 0.0
-    for c in cylinders:
+    for c in shapes.get("cylinders") or []:
         (x0, y0, z0), (x1, y1, z1) = c["start_m"], c["end_m"]
-        if math.hypot(x1 - x0, y1 - y0) > 1e-6 * abs(z1 - z0) or max(z0, z1) <= 0.0:
+        low, high, d0, d1 = min(z0, z1), max(z0, z1), c["diameter_m"], c.get("end_diameter_m", c["diameter_m"])
+        if math.hypot(x1 - x0, y1 - y0) > 1e-6 * (high - low) or (low < 0.0 < high and d0 != d1):
             return None
-        a = math.pi / 4.0 * c["diameter_m"] ** 2
-        area, volume, draft = area + a, volume + a * -min(z0, z1), max(draft, -min(z0, z1))
+        if low < 0.0:   # the others are dry
+            volume, draft = volume + math.pi / 12.0 * (d0 * d0 + d0 * d1 + d1 * d1) * (min(high, 0.0) - low), max(draft, -low)
+        if low < 0.0 < high:
+            area += math.pi / 4.0 * d0 * d0
+    if not area > 0.0:
+        return None
     chosen = run.mean_range()[0]
     mean = lambda name: words.mean(run.time[chosen], run.column(name)[chosen])
     heave, expected = mean(f"{body}.z_m"), (volume - mean(f"{body}.sea.fz_N") / (rho * g)) / area

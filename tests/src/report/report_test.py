@@ -369,6 +369,26 @@ class PartsTest(unittest.TestCase):
             run.values[run.columns.index("coupling.mismatch")] = 0.8
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Coupling"], "warn")
 
+    def test_the_draft_is_that_of_all_volume_under_water_or_not_judged(self):
+        column = {"start_m": [0, 0, -14.0], "end_m": [0, 0, 12.0], "diameter_m": 10.0}
+        cone = {"start_m": [0, 0, -20.0], "end_m": [0, 0, -14.0], "diameter_m": 16.0, "end_diameter_m": 10.0}
+        tower = {"start_m": [0, 0, 12.0], "end_m": [0, 0, 90.0], "diameter_m": 8.0, "end_diameter_m": 4.0}
+        volume = 14.0 * np.pi / 4 * 100.0 + 6.0 * np.pi / 12 * (16.0**2 + 16.0 * 10.0 + 10.0**2)
+        t = 0.1 * np.arange(100)
+        table = {"time_s": t, "float.z_m": 0 * t, "float.sea.fz_N": 1025.0 * 9.81 * (volume - 0.5 * np.pi / 4 * 100.0) + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, log="")
+            run = RunData(pathlib.Path(folder))
+
+            def draft(**shapes):
+                run.scene = {"sea": {"model": "sph"}, "bodies": {"float": shapes}}
+                return verdict._draft(run)
+
+            self.assertIn("asks for 0.500 m", draft(cylinders=[column, cone, tower]).text)
+            self.assertIsNone(draft(cylinders=[column, cone], boxes=[{"size_m": [50.0, 8.0, 6.0], "centre_m": [0.0, 0.0, -17.0]}]))
+            self.assertIsNone(draft(cylinders=[column | {"end_diameter_m": 6.0}]))
+            self.assertIsNone(draft(cylinders=[cone]))
+
     def test_an_impact_answers_with_its_way_and_its_load(self):
         t = 0.001 * np.arange(161)
         table = {"time_s": t, "cylinder.x_m": 0 * t, "cylinder.z_m": -0.17 * np.sqrt(t / 0.16), "cylinder.pitch_deg": 0 * t, "cylinder.sea.fz_N": 1300.0 * np.exp(-t / 0.01)}
