@@ -324,7 +324,7 @@ def time_figures(runs):
 
 
 def marks(run):
-    """{name: frequency in Hz} of what drives a run: waves, the rotor's turning and its blades' passing."""
+    """{name: frequency in Hz} of what drives a run: waves, the rotor's turning and its blades' passing over the range of the means."""
     found = {}
     waves = run.scene.get("waves", {})
     for key in ("period_s", "peak_period_s"):
@@ -333,7 +333,8 @@ def marks(run):
     for text, column in quantities.of_rotors(run.columns, "", "rpm") if len(run.time) else ():
         if column not in run.columns:
             continue
-        once = float(np.nanmean(run.column(column))) / 60.0
+        chosen = run.mean_range()[0]
+        once = mean(run.time[chosen], run.column(column)[chosen]) / 60.0
         blades = run.blades(dict(run.rotors()).get(column.rpartition(".")[0]))
         # Turbines side by side turn alike: marked once.
         alike = "1P" in found and abs(once - found["1P"]) < 0.01 * found["1P"] and blades == run.blades()

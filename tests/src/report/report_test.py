@@ -799,6 +799,13 @@ class PartsTest(unittest.TestCase):
         control = next(g for g in quantities.groups(names) if g.title == "rotor: control")
         self.assertEqual([legend for legend, _ in control.panels[0][1]], ["blade 1", "blade 2", "blade 3", "asked"])
 
+    def test_the_rotors_frequencies_are_those_of_the_stretch_of_the_means(self):
+        t = 0.1 * np.arange(6001)
+        table = {"time_s": t, "rotor.thrust_N": 1e5 + 0 * t, "rotor.rpm": np.where(t < 300.0, 0.0, 12.0)}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, log="", ranges={"end": {"from_s": 400.0, "to_s": 600.0}})
+            self.assertAlmostEqual(page.marks(RunData(pathlib.Path(folder)))["1P"], 0.2, places=9)
+
     def test_a_spectrum_takes_every_segment(self):
         t = 0.05 * np.arange(6000)
         for begin, share in ((0, 1 / 6), (1500, 1 / 3)):   # half of one segment of three, or of two
