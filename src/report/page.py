@@ -42,7 +42,10 @@ def _span(run):
     if verdict.is_steady(run):
         return "At the end of the march."
     if verdict.kind(run) == "tank" or verdict.is_impact(run):
-        return "Of the whole run." if not any(text.startswith("wave height") for text, _, _ in verdict.answers(run)) else "Over the last two waves."
+        said = [text for text, _, _ in verdict.answers(run)]
+        if any(text.startswith("significant height") for text in said):
+            return f"Over {run.mean_range()[1]}."
+        return "Over the last two waves." if any(text.startswith("wave height") for text in said) else "Of the whole run."
     if decay.decays(run):
         return "Period and damping from the peaks of the whole run."
     count = verdict.waves_in_means(run)

@@ -80,7 +80,8 @@ def what_ran(run):
     parts = [p for p in ((air if kind(run) == "floating turbine" else None), sea) if p]
     text = named + (f" with {' and '.join(parts)}" if parts else "")
     if isinstance(wave, (int, float)) and wave > 0:
-        text += f", waves of {wave:.3g} m" + (f" and {run.scene['waves']['period_s']:.3g} s" if _value(scene, "waves", "period_s") else "")
+        height, period = ("Hs ", "Tp ") if is_irregular(run) else ("", "")
+        text += f", waves of {height}{wave:.3g} m" + (f" and {period}{run.scene['waves']['period_s']:.3g} s" if _value(scene, "waves", "period_s") else "")
     wind = _value(scene, "wind", "speed_m_s")
     if isinstance(wind, (int, float)) and wind > 0:
         text += f", wind of {wind:.4g} m/s" + _changes_of_wind(scene)
@@ -92,6 +93,11 @@ def what_ran(run):
 
 EVENTS = {"step": "a step", "ramp": "a ramp", "eog": "an extreme operating gust", "edc": "an extreme change of direction",
           "ecd": "an extreme coherent gust with change of direction", "ews_vertical": "an extreme vertical shear", "ews_horizontal": "an extreme horizontal shear"}
+
+
+def is_irregular(run):
+    """Waves of many heights: none of them is the wave."""
+    return _value(run.scene, "waves", "model") in ("jonswap", "pierson_moskowitz", "elevation")
 
 
 def _changes_of_wind(scene):
@@ -168,15 +174,19 @@ def answers(run):
         largest = max(tensions, key=lambda n: np.nanmax(run.column(n), initial=0.0))
         add("largest tension", largest, lambda n: float(np.nanmax(run.column(n))))
     period = _value(run.scene, "waves", "period_s")
-    if sort == "tank" and isinstance(period, (int, float)) and run.time[-1] - run.time[0] > 4.0 * period:
+
+    def add_gauges(text, function):
+        for name in run.columns:
+            if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
+                add(text.format(name.rpartition(".")[0]), name, function)
+
+    if sort == "tank" and is_irregular(run) and not _value(run.scene, "waves", "crest_alone"):
+        add_gauges("significant height at {}, 4 sigma", lambda n: 4.0 * words.deviation(run.time[chosen], run.column(n)[chosen]))
+    elif sort == "tank" and not is_irregular(run) and isinstance(period, (int, float)) and run.time[-1] - run.time[0] > 4.0 * period:
         last = run.time >= run.time[-1] - 2.0 * period
-        for name in run.columns:
-            if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
-                add(f"wave height at {name.rpartition('.')[0]}", name, lambda n: float(np.ptp(run.column(n)[last])))
+        add_gauges("wave height at {}", lambda n: float(np.ptp(run.column(n)[last])))
     elif sort == "tank":
-        for name in run.columns:
-            if name.endswith(".elevation_m") and not name.startswith("waves.") and len(said) < 4:
-                add(f"{name.rpartition('.')[0]}, highest", name, lambda n: float(np.nanmax(run.column(n))))
+        add_gauges("{}, highest", lambda n: float(np.nanmax(run.column(n))))
         if "sea.x_max_m" in quantities.key_columns(run.columns):
             add("farthest water, x", "sea.x_max_m", lambda n: float(run.column(n)[-1]))
     return said
@@ -613,7 +623,7 @@ def waves_in_means(run):
     """How many regular waves the stretch of the means holds; nan where there are none."""
     waves = run.scene.get("waves") or {}
     period, height = waves.get("period_s"), waves.get("height_m")
-    if not (isinstance(period, (int, float)) and period > 0 and isinstance(height, (int, float)) and height > 0) or is_steady(run) or len(run.time) < 2:
+    if not (isinstance(period, (int, float)) and period > 0 and isinstance(height, (int, float)) and height > 0) or is_irregular(run) or is_steady(run) or len(run.time) < 2:
         return math.nan
     chosen = np.flatnonzero(run.mean_range()[0])
     return float(run.time[chosen[-1]] - run.time[chosen[0]]) / period

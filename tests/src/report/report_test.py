@@ -423,6 +423,25 @@ class PartsTest(unittest.TestCase):
             self.assertEqual(verdict.answers(run), [("wave height at g1", "0.05000", "m")])
             self.assertEqual(page._span(run), "Over the last two waves.")
 
+    def test_a_sea_state_answers_with_its_significant_height_and_has_no_whole_waves(self):
+        t = 0.1 * np.arange(6001)
+        eta = 0.5 * np.sin(2 * np.pi * t / 10.0) + 0.4 * np.sin(2 * np.pi * t / 7.3)
+        scene = "[sea]\nmodel = 'sph'\n[waves]\nmodel = 'jonswap'\nheight_m = 2.0\nperiod_s = 10.0\n"
+        ranges = {"end": {"from_s": 85.0, "to_s": 600.0}}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "g1.elevation_m": eta, "sea.particles": 0 * t + 9e3}, log="", scene=scene, ranges=ranges)
+            run = RunData(pathlib.Path(folder))
+            (text, value, unit), = verdict.answers(run)
+            self.assertEqual((text, unit), ("significant height at g1, 4 sigma", "m"))
+            self.assertAlmostEqual(float(value) / (4.0 * np.sqrt(0.5 * (0.5**2 + 0.4**2))), 1.0, delta=0.01)
+            self.assertEqual(page._span(run), "Over 85 to 600 s.")
+            self.assertIn("waves of Hs 2 m and Tp 10 s", verdict.what_ran(run))
+            table = {"time_s": t, "float.x_m": 0 * t, "float.z_m": 3.0 * eta}
+            synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene + "[bodies.float]\nmass_kg = 1.0\n", ranges=ranges)
+            run = RunData(pathlib.Path(folder))
+            self.assertEqual(page._span(run), "Means ± standard deviation over 85 to 600 s.")
+            self.assertNotIn("Means", [c.title for c in verdict.health(run)])
+
     def test_health_names_floats_that_lean(self):
         t = 0.1 * np.arange(400)
         for lean, level in ((20.0, None), (50.0, "warn"), (120.0, "warn")):
