@@ -345,28 +345,49 @@ def _has_a_top(body, points):
 
 def _power(run):
     """Mean power of each rotor against that of its turbine's operation table at this wind; the worst of several first."""
-    found = [(name, check) for name, given in run.rotors() if (check := _power_of(run, f"{name}.power_W", given)) is not None]
+    found = [(name, check) for name, given in run.rotors() if (check := _power_of(run, name, given)) is not None]
     found.sort(key=lambda pair: pair[1].level == "good")
     if len(found) < 2:
         return found[0][1] if found else None
     return Check(found[0][1].level, "Power", "; ".join(f"{name.replace('.', ' ')}: {check.text}" for name, check in found))
 
 
-def _power_of(run, column, rotor):
-    wind, table = _value(run.scene, "wind", "speed_m_s"), run.operation(rotor)
-    if len(run.time) and column in run.columns and not is_steady(run):
-        chosen = run.mean_range()[0]
-        power, largest = words.mean(run.time[chosen], run.column(column)[chosen]), float(np.nanmax(np.abs(run.column(column))))
-        if power < -0.01 * largest:
-            return Check("warn", "Power", f"mean {words.number(1e-6 * power, 3)} MW: the rotor drives the air, as it turns faster than this wind would turn it; "
-                         "blade elements are not made for that, and its loads scatter")
-    if table is None or not wind or column not in run.columns or not len(run.time):
-        return None
-    if not {"wind_m_s", "power_W"} <= set(table):
+STOPS = ("shut_down", "emergency_stop", "grid_loss")
+
+
+def _stands_still(run, name):
+    """Is the rotor parked, or stopped by an event?"""
+    control = _value(run.scene, "control") or {}
+    still = control.get("start") == "parked"
+    for event in sorted(control.get("events") or [], key=lambda e: e["time_s"]):
+        if event.get("rotor") in (None, "", name.partition(".")[2]) and event["time_s"] < run.time[-1]:
+            still = event["what"] in STOPS or (still and event["what"] != "start_up")
+    return still
+
+
+def _wind_at(run, name):
+    """Its speed: of wind that changes the mean at the hub, None where no column has it."""
+    if not _changes_of_wind(run.scene):
+        return _value(run.scene, "wind", "speed_m_s")
+    if not {f"{name}.wind_x_m_s", f"{name}.wind_y_m_s"} <= set(run.columns):
         return None
     chosen = run.mean_range()[0]
-    power, stated = words.mean(run.time[chosen], run.column(column)[chosen]), float(np.interp(wind, table["wind_m_s"], table["power_W"]))
-    rated = max(table["power_W"])
+    return words.mean(run.time[chosen], np.hypot(run.column(f"{name}.wind_x_m_s"), run.column(f"{name}.wind_y_m_s"))[chosen])
+
+
+def _power_of(run, name, rotor):
+    column, table = f"{name}.power_W", run.operation(rotor)
+    if not len(run.time) or column not in run.columns or _stands_still(run, name):
+        return None
+    chosen = run.mean_range()[0]
+    power, largest = words.mean(run.time[chosen], run.column(column)[chosen]), float(np.nanmax(np.abs(run.column(column))))
+    if power < -0.01 * largest and not is_steady(run):
+        return Check("warn", "Power", f"mean {words.number(1e-6 * power, 3)} MW: the rotor drives the air, as it turns faster than this wind would turn it; "
+                     "blade elements are not made for that, and its loads scatter")
+    wind = _wind_at(run, name)
+    if table is None or not wind or not {"wind_m_s", "power_W"} <= set(table):
+        return None
+    stated, rated = float(np.interp(wind, table["wind_m_s"], table["power_W"])), max(table["power_W"])
     text = f"mean {words.number(1e-6 * power, 3)} MW; the turbine's table has {words.number(1e-6 * stated, 3)} MW at {wind:.4g} m/s, rated {words.number(1e-6 * rated, 3)} MW"
     level = "good" if abs(power - stated) <= 0.15 * max(stated, 1.0) else "warn"
     return Check(level, "Power", text)

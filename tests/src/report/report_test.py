@@ -580,6 +580,19 @@ class PartsTest(unittest.TestCase):
             self.assertEqual(found.level, "warn")
             self.assertIn("the turbine's table has 5.00 MW at 10 m/s, rated 8.00 MW", found.text)
 
+            def power(more, wind=10.0):
+                hub = {"rotor.wind_x_m_s": np.where(t < 20.0, 10.0, wind * 0.8), "rotor.wind_y_m_s": np.where(t < 20.0, 0.0, wind * 0.6)}
+                synthetic_run.write(folder / "run", table=table | hub, log="", ranges={"end": {"from_s": 25.0, "to_s": 40.0}},
+                                    scene="[wind]\nspeed_m_s = 10.0\n" + more + "[rotor]\nturbine = '../turbines/own.toml'\noperation = ''\n[bodies.float]\nmass_kg = 1.0\n")
+                return {c.title: c.text for c in verdict.health(RunData(folder / "run"))}.get("Power")
+
+            self.assertIn("has 5.00 MW at 10 m/s", power("", 9.0))
+            self.assertIn("has 3.50 MW at 9 m/s", power("[wind.event]\nwhat = 'step'\nstart_s = 20.0\n", 9.0))
+            events = "[control]\nevents = [{ what = '%s', time_s = 10.0, rotor = '' }]\n"
+            self.assertIsNone(power(events % "grid_loss"))
+            self.assertIsNone(power("[control]\nstart = 'parked'\n"))
+            self.assertIsNotNone(power(events % "start_up"))
+
     def test_a_rotor_that_drives_the_air_is_named(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e4 + 0 * t, "rotor.power_W": -6e5 + 0 * t}
