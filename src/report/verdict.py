@@ -618,6 +618,7 @@ def _settled(run):
             # A swinging load has halves whose means differ by chance: a fifth of its swing is none.
             if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name)):
                 moving.append(f"{text} by {words.number(100.0 * change / max(size, 1e-300), 2)} %")
+    random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
     for text, name, least in () if _is_towed(run) else (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
         if name in run.columns:
             values = run.column(name)
@@ -627,6 +628,8 @@ def _settled(run):
             allowed = max(least, 0.1 * abs(words.mean(run.time[chosen], values[chosen])))
             if text == "heave":   # of a small body a small way is much
                 allowed = min(allowed, 0.05 * height)
+            if random:   # halves of a random motion differ by chance, as those of a load
+                allowed = max(allowed, 0.2 * words.deviation(run.time[chosen], values[chosen]))
             if abs(change) > allowed:
                 unit = quantities.unit_of(name, run.described)
                 moving.append(f"{text} by {words.number(change, 2)} {unit}")

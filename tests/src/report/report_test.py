@@ -556,6 +556,14 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual(found.level, level)
                 self.assertEqual("thrust by" in found.text, change > 0.0)
 
+    def test_halves_of_a_random_motion_differ_by_chance(self):
+        t = 0.1 * np.arange(6001)
+        table = {"time_s": t, "float.x_m": 2.0 * np.sin(2 * np.pi * t / 11.0) + 0.1 * np.sign(t - 350.0)}
+        for scene, level in (("", "warn"), ("[waves]\nmodel = 'jonswap'\nheight_m = 6.0\nperiod_s = 10.0\n", "good"), ("[wind]\nspeed_m_s = 9.0\n[wind.turbulence]\nseed = 1\n", "good")):
+            with self.subTest(scene), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, scene=scene + "[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 100.0, "to_s": 600.0}})
+                self.assertEqual({c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"], level)
+
     def test_a_figure_that_swings_is_told_with_its_standard_deviation(self):
         t = 0.1 * np.arange(401)
         table = {"time_s": t, "float.x_m": 0.2 + 0 * t, "float.z_m": np.sin(2 * np.pi * t / 10.0), "rotor.thrust_N": 1.2e6 + 0 * t}
