@@ -84,16 +84,21 @@ void put(std::string& out, T value) {
 struct Packing {
   float scale = 1.0f, offset = 0.0f;
   std::int16_t operator()(double value) const {
-    if (!std::isfinite(value)) return std::numeric_limits<std::int16_t>::min();
     return std::int16_t(std::clamp(std::round(double(scale) * value + double(offset)), -32768.0, 32767.0));
   }
 };
 
-Packing packing_of(const Table& table, std::size_t column, std::size_t rows) {
+Packing packing_of(const Table& table, std::size_t column, std::size_t rows, const std::string& file) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t r = 1; r <= rows; ++r)
-    if (const double value = number_in(table[r][column]); std::isfinite(value))
-      low = std::min(low, value), high = std::max(high, value);
+  for (std::size_t r = 1; r <= rows; ++r) {
+    const double value = number_in(table[r][column]);
+    if (!std::isfinite(value))
+      throw MachineFailure(
+          fmt::format("{}: {} at {} s is no finite number, which the binary format of OpenFAST cannot say; take "
+                      "output.openfast = \"text\"",
+                      file, table[0][column], table[r][0]));
+    low = std::min(low, value), high = std::max(high, value);
+  }
   if (low > high) return {};
   constexpr double most = 32767.0, least = -32768.0;
   const auto scale = float((most - least) / std::max(high - low, 1e-12 * std::max(std::abs(low), 1.0)));
@@ -126,7 +131,7 @@ std::string binary_of(const Table& table, std::span<const Column> columns, const
   put(out, rows > 0 ? time(1) : 0.0);
   put(out, step);
   std::vector<Packing> packing;
-  for (std::size_t c = 1; c <= channels; ++c) packing.push_back(packing_of(table, c, rows));
+  for (std::size_t c = 1; c <= channels; ++c) packing.push_back(packing_of(table, c, rows, file));
   for (const Packing& p : packing) put(out, p.scale);
   for (const Packing& p : packing) put(out, p.offset);
   put(out, std::int32_t(description(title).size()));

@@ -96,6 +96,13 @@ TEST_CASE("rows that are not equally spaced in time are named, but for the last"
                     Contains("1.7 s") && Contains("text"));
 }
 
+TEST_CASE("what is no number is named, as the binary file cannot say it", "[io][fast]") {
+  for (const std::string value : {"nan", "-inf", ""})
+    CHECK_THROWS_WITH(write_openfast(history(rows + "2,0.1," + value + ",3\n"), columns, OpenFastFormat::binary, ""),
+                      Contains("line_1.tension_N at 2 s") && Contains("text"));
+  CHECK_NOTHROW(write_openfast(history(rows + "2,0.1,nan,3\n"), columns, OpenFastFormat::text, ""));
+}
+
 TEST_CASE("a row cut short is left out", "[io][fast]") {
   CHECK(Binary(write_openfast(history(rows + "2,0.1"), columns, OpenFastFormat::binary, "")).rows == 4);
 }
