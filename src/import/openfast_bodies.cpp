@@ -34,7 +34,7 @@ struct Displaced {
 std::string flexible_tower(DeckImport& run, const Deck& elastodyn, const RotorFrame& rotor, const ImportedSystem& system,
                            const Displaced& platform) {
   const MassSum top = top_masses(elastodyn, rotor, system.controlled);
-  const ImportedBeam beam = tower_beam(elastodyn);
+  const ImportedBeam beam = tower_beam(elastodyn, top.mass(), run.left_out);
   std::string text = "\n[bodies.nacelle]                        # nacelle, hub and blades\n" + mass_keys(top);
   const auto& [reference, moved, turned] = platform;
   if (system.floats && (moved.norm() > 0.0 || turned.norm() > 0.0)) {
@@ -51,7 +51,7 @@ std::string flexible_tower(DeckImport& run, const Deck& elastodyn, const RotorFr
           "\nproperties = \"tower.csv\"\n" + fmt::format("damping = [{:.9g}, {:.9g}]\n", beam.damping[0], beam.damping[1]);
   run.carry(
       fmt::format("tower: flexible, {:.6g} m, two modes fore-aft and two side-side of its mass and stiffness, damping {:.3g} and "
-                  "{:.3g} % of critical",
+                  "{:.3g} % of critical with what it carries",
                   beam.top - beam.base, 100.0 * beam.damping[0], 100.0 * beam.damping[1]));
   run.leave_out("the file's shapes of the tower's modes: they are computed; its extension and twist are those of a steel tube");
   return text;

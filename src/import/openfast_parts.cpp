@@ -158,12 +158,14 @@ void add_tower(const Deck& ed, MassSum& sum) {
 
 void add_top(const Deck& ed, const RotorFrame& r, bool controlled, MassSum& sum) {
   const double top = ed.number({"TowerHt"});
+  const Eigen::AngleAxisd yaw(r.yaw, Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d nacelle =
-      Eigen::AngleAxisd(r.yaw, Eigen::Vector3d::UnitZ()) *
-      Eigen::Vector3d(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
+      yaw * Eigen::Vector3d(ed.number({"NacCMxn"}, 0.0), ed.number({"NacCMyn"}, 0.0), top + ed.number({"NacCMzn"}, 0.0));
   const double nacelle_mass = ed.number({"NacMass"}, 0.0);
   const double own_yaw = ed.number({"NacYIner"}, 0.0) - nacelle_mass * nacelle.head<2>().squaredNorm();
-  sum.add(nacelle_mass, nacelle, Eigen::Vector3d(0.0, 0.0, std::max(own_yaw, 0.0)).asDiagonal());
+  // The deck has no more than that about its yaw axis. A nacelle is long along its shaft: it has as much in pitch.
+  const Eigen::Vector3d along = yaw * Eigen::Vector3d::UnitX();
+  sum.add(nacelle_mass, nacelle, std::max(own_yaw, 0.0) * (Eigen::Matrix3d::Identity() - along * along.transpose()));
   sum.add(ed.number({"YawBrMass"}, 0.0), {0.0, 0.0, top});
   sum.add(ed.number({"HubMass"}, 0.0), r.hub + ed.number({"HubCM"}, 0.0) * r.axis,
           about_axis(ed.number({"HubIner"}, 0.0), r.axis));
@@ -193,27 +195,54 @@ MassSum top_masses(const Deck& ed, const RotorFrame& r, bool controlled) {
   return sum;
 }
 
-ImportedBeam tower_beam(const Deck& ed) {
+namespace {
+
+/// What the tuners of an ElastoDyn file's modes make of a stiffness: they are those of modes, not of places.
+double tuned(const Deck& file, const std::string& tuner, int modes, std::vector<std::string>& left_out) {
+  const auto of_mode = [&](int mode) { return file.number({fmt::format("{}({})", tuner, mode)}, 1.0); };
+  if (modes == 2 && of_mode(1) != of_mode(2))
+    left_out.push_back(fmt::format("{}: {}(2) {:g}, the stiffness of its second mode: all has that of the first, {:g}",
+                                   file.file().filename().string(), tuner, of_mode(2), of_mode(1)));
+  return of_mode(1);
+}
+
+/// Damping of a mode of the tower with what stands on it. ElastoDyn's is of the tower alone: C = 2 zeta K / omega of the mode
+/// without the mass on top (CTFA and FreqTFA in its Coeff), which leaves zeta sqrt(m / (m + top)) of it.
+double damping_under(double top, const Deck& file, const Density& mass, double length, const std::string& plane, int mode) {
+  double own = 0.0;  // mass of the mode, whose shape is one at the top
+  slice(mass, length, [&](double part, double share) {
+    double shape = 0.0;
+    for (int power = 2; power <= 6; ++power)
+      shape += file.number({fmt::format("Tw{}M{}Sh({})", plane, mode, power)}) * std::pow(share, power);
+    own += part * shape * shape;
+  });
+  return 0.01 * file.number({fmt::format("Twr{}Dmp({})", plane, mode)}, 0.0) * std::sqrt(own / (own + top));
+}
+
+}  // namespace
+
+ImportedBeam tower_beam(const Deck& ed, double top_mass, std::vector<std::string>& left_out) {
   const Deck file(ed.path({"TwrFile"}));
   const auto along = [&](const char* column, const char* factor) {
     return read_density(file, {"NTwInpSt", "NTwInptSt"}, {"HtFract"}, {column}, {factor});
   };
   const Density mass = along("TMassDen", "AdjTwMa"), fore_aft = along("TwFAStif", "AdjFASt"),
                 side_side = along("TwSSStif", "AdjSSSt");
+  const double tuned_fore_aft = tuned(file, "FAStTunr", 2, left_out), tuned_side_side = tuned(file, "SSStTunr", 2, left_out);
   ImportedBeam beam{
       .properties = "# From " + file.file().filename().string() + ".\ndistance_m,mass_kg_m,stiffness_x_N_m2,stiffness_y_N_m2\n",
       .base = ed.number({"TowerBsHt"}, 0.0),
       .top = ed.number({"TowerHt"})};
   for (std::size_t n = 0; n < mass.at.size(); ++n)
     beam.properties += fmt::format("{:.10g},{:.10g},{:.10g},{:.10g}\n", mass.at[n] * (beam.top - beam.base), mass.per_m[n],
-                                   fore_aft.per_m[n], side_side.per_m[n]);
+                                   tuned_fore_aft * fore_aft.per_m[n], tuned_side_side * side_side.per_m[n]);
   for (int mode = 1; mode <= 2; ++mode)
-    beam.damping[mode - 1] =
-        0.005 * (file.number({fmt::format("TwrFADmp({})", mode)}, 0.0) + file.number({fmt::format("TwrSSDmp({})", mode)}, 0.0));
+    for (const char* plane : {"FA", "SS"})
+      beam.damping[mode - 1] += 0.5 * damping_under(top_mass, file, mass, beam.top - beam.base, plane, mode);
   return beam;
 }
 
-ImportedBending blade_bending(const Deck& ed, const RotorFrame& r) {
+ImportedBending blade_bending(const Deck& ed, const RotorFrame& r, std::vector<std::string>& left_out) {
   const auto path = [&](int blade) {
     const std::string index = std::to_string(blade);
     return ed.path({"BldFile(" + index + ")", "BldFile" + index, "BldFile"});
@@ -224,6 +253,7 @@ ImportedBending blade_bending(const Deck& ed, const RotorFrame& r) {
   };
   const Density mass = along("BMassDen", {"AdjBlMs"}), flap = along("FlpStff", {"AdjFlSt"}), edge = along("EdgStff", {"AdjEdSt"}),
                 twist = along("StrcTwst", {"(no factor)"});
+  const double tuned_flap = tuned(file, "FlStTunr", 2, left_out), tuned_edge = tuned(file, "EdStTunr", 1, left_out);
   ImportedBending bending{.structure = "# From " + file.file().filename().string() +
                                        ".\nspan_m,mass_kg_m,flap_N_m2,edge_N_m2,twist_deg\n"};
   beam::BladeTable table;
@@ -234,11 +264,12 @@ ImportedBending blade_bending(const Deck& ed, const RotorFrame& r) {
                             "than the one before",
                             n + 1));
     table.position.push_back((mass.at[n] - mass.at[0]) * (r.tip_radius - r.hub_radius));
-    table.mass.push_back(mass.per_m[n]), table.flap.push_back(flap.per_m[n]), table.edge.push_back(edge.per_m[n]);
+    table.mass.push_back(mass.per_m[n]);
+    table.flap.push_back(tuned_flap * flap.per_m[n]), table.edge.push_back(tuned_edge * edge.per_m[n]);
     table.twist.push_back(twist.per_m[n] * radians_per_degree);
     bending.structure +=
         fmt::format("{:.10g},{:.10g},{:.10g},{:.10g},{:.10g}\n", r.hub_radius + mass.at[n] * (r.tip_radius - r.hub_radius),
-                    mass.per_m[n], flap.per_m[n], edge.per_m[n], twist.per_m[n]);
+                    mass.per_m[n], table.flap.back(), table.edge.back(), twist.per_m[n]);
   }
   bending.fastest = beam::BladeModes(table).omega().back();
   int k = 0;

@@ -46,13 +46,13 @@ MassSum all_masses(const Deck& elastodyn, const RotorFrame& rotor, bool controll
 MassSum platform_masses(const Deck& elastodyn);
 MassSum top_masses(const Deck& elastodyn, const RotorFrame& rotor, bool controlled);
 
-/// The tower as a beam: file of its properties, heights of its ends, damping of its first and second modes (the mean of both
-/// planes).
+/// The tower as a beam: file of its properties, heights of its ends, damping of its first and second modes under the mass on its
+/// top [kg] (the mean of both planes).
 struct ImportedBeam {
   std::string properties;  ///< CSV
   double base = 0.0, top = 0.0, damping[2] = {0.0, 0.0};
 };
-ImportedBeam tower_beam(const Deck& elastodyn);
+ImportedBeam tower_beam(const Deck& elastodyn, double top_mass, std::vector<std::string>& left_out);
 
 /// Blades that bend: the table that a scene takes as rotor.blade_structure, and damping of the modes.
 struct ImportedBending {
@@ -61,7 +61,7 @@ struct ImportedBending {
   double fastest = 0.0;                 ///< of these modes at rest [rad/s]
   bool alike = true;                    ///< all blades have one file; else it is that of blade 1
 };
-ImportedBending blade_bending(const Deck& elastodyn, const RotorFrame& rotor);
+ImportedBending blade_bending(const Deck& elastodyn, const RotorFrame& rotor, std::vector<std::string>& left_out);
 
 /// About the shaft [kg m2]: blades and hub; the generator.
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);

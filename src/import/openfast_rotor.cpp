@@ -107,7 +107,7 @@ ImportedRotor bending_keys(DeckImport& run, const Deck& ed, const RotorFrame& ro
     run.leave_out("bending of BeamDyn's blades: they are rigid");
     return keys;
   }
-  const ImportedBending bending = blade_bending(ed, rotor);
+  const ImportedBending bending = blade_bending(ed, rotor, run.left_out);
   // Half a radian of the fastest mode to a step, whole steps to a window.
   const double turning = ed.number({"RotSpeed"}) * rad_s_per_rpm, fastest = std::hypot(bending.fastest, 2.0 * turning);
   keys.longest_step = window / std::ceil(window * fastest / 0.5);

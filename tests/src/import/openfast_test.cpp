@@ -2,6 +2,7 @@
 // layouts of OpenFAST, and what becomes of it. SPDX-License-Identifier: Apache-2.0
 #include "src/import/openfast.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -347,8 +348,16 @@ namespace {
 SmallDeck deck_that_bends() {
   SmallDeck deck;
   deck.replace("ed.dat", "False TwFADOF1", "True TwFADOF1\nTrue TwFADOF2\nTrue TwSSDOF1\nTrue TwSSDOF2");
-  deck.replace("tower.dat", "1.0 AdjTwMa",
-               "1.0 AdjTwMa\n1.0 TwrFADmp(1)\n2.0 TwrFADmp(2)\n1.0 TwrSSDmp(1)\n2.0 TwrSSDmp(2)\n2.0 AdjFASt");
+  deck.replace(
+      "tower.dat", "1.0 AdjTwMa",
+      "1.0 AdjTwMa\n1.0 TwrFADmp(1)\n2.0 TwrFADmp(2)\n1.0 TwrSSDmp(1)\n2.0 TwrSSDmp(2)\n2.0 AdjFASt\n0.5 FAStTunr(1)\n0.5 "
+      "FAStTunr(2)");
+  for (const char* plane : {"FA", "SS"})  // h2, and 3 h3 - 2 h2
+    for (int mode = 1; mode <= 2; ++mode)
+      for (int power = 2; power <= 6; ++power) {
+        const int value = mode == 1 ? (power == 2) : power == 2 ? -2 : power == 3 ? 3 : 0;
+        deck.files["tower.dat"] += fmt::format("{} Tw{}M{}Sh({})\n", value, plane, mode, power);
+      }
   deck.replace("tower.dat", "0 4000 1 1", "0 4000 3e11 4e11");
   deck.replace("tower.dat", "1 2000 1 1", "1 2000 1e11 2e11");
   return deck;
@@ -368,10 +377,14 @@ TEST_CASE("a tower that bends in the deck is a beam of the same mass", "[import]
   REQUIRE(s.beams.size() == 1);
   const bodies::BeamOptions& beam = s.beams[0].options;
   CHECK(s.rotor.body == "nacelle");
-  CHECK(beam.damping == std::vector<double>{0.01, 0.02});
+  // Of the deck's 1 and 2 %, which are of the tower alone, with 4000 to 2000 kg/m: shares of its 50 m that move with the modes.
+  const double carried = s.bodies[1].options.mass_kg, first = 50.0 * (4000.0 / 5 - 2000.0 / 6),
+               second = 50.0 * (4000.0 * (9.0 / 7 - 12.0 / 6 + 4.0 / 5) - 2000.0 * (9.0 / 8 - 12.0 / 7 + 4.0 / 6));
+  CHECK(beam.damping[0] == Approx(0.01 * std::sqrt(first / (first + carried))).epsilon(1e-3));
+  CHECK(beam.damping[1] == Approx(0.02 * std::sqrt(second / (second + carried))).epsilon(1e-2));
   CHECK(beam.start_m.z() == 10.0);
   const beam::Properties tower = bodies::read_properties(beam);
-  CHECK(tower.bending_x[0] == Approx(6e11));
+  CHECK(tower.bending_x[0] == Approx(3e11));
   CHECK(tower.bending_y[1] == Approx(2e11));
   CHECK(s.bodies[0].options.mass_kg + s.bodies[1].options.mass_kg + 50.0 * 3000.0 == Approx(whole.mass_kg));
   // Both bodies start as parts of one rigid turbine.
@@ -379,6 +392,20 @@ TEST_CASE("a tower that bends in the deck is a beam of the same mass", "[import]
   const Eigen::Vector3d foot = beam.start_m - s.bodies[0].options.centre_m, top = beam.end_m - s.bodies[1].options.centre_m;
   CHECK((platform.attitude.conjugate() * (nacelle.point(top) - platform.point(foot)) - Eigen::Vector3d(0, 0, 50.0)).norm() <
         1e-6);
+}
+
+TEST_CASE("stiffness tuned by modes is the beam's where it is one", "[import][fast]") {
+  SmallDeck deck = deck_that_bends();
+  deck.replace("tower.dat", "0.5 FAStTunr(2)", "0.6 FAStTunr(2)");
+  CHECK(has_word(deck.import().left_out, "FAStTunr(2) 0.6"));
+}
+
+TEST_CASE("a nacelle with a rotor that a controller turns is a body that can be", "[import][fast]") {
+  SmallDeck deck = deck_that_bends();
+  deck.replace("main.fst", "0 CompServo", "1 CompServo");
+  deck.replace("ed.dat", "False GenDOF", "True GenDOF");
+  deck.replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  CHECK(deck.refusal().empty());
 }
 
 TEST_CASE("a tower that bends in the deck is rigid where that is asked for", "[import][fast]") {
