@@ -110,10 +110,15 @@ void add_drag(const Strip& strip, const WettedStrip& wet, double density, const 
 void add_morison(const Strip& strip, const WettedStrip& wet, double density, const Frame& body, const Water& water,
                  std::span<const waves::ComponentGroup> scattered, SeaLoads& loads, Matrix6* mass) {
   const Coefficients& c = strip.coefficients;
+  Eigen::Vector3d first_acceleration, first_arm, change = Eigen::Vector3d::Zero();  // of the water, a metre along the axis
+  double second_moment = 0.0;                                                       // of the sections, summed along the axis
   const Eigen::Matrix3d along = wet.axis * wet.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
   for (const Station& s : std::span(wet.stations).first(wet.count)) {
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
+    if (second_moment == 0.0) first_acceleration = k.acceleration, first_arm = s.arm;
+    if (const double way = (s.arm - first_arm).dot(wet.axis); way > 0.0) change = (k.acceleration - first_acceleration) / way;
+    second_moment += 0.25 * s.volume * s.radius * s.radius;
     const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
     add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), wet.axis), s.arm);
     if (scattered.empty()) {
@@ -125,6 +130,7 @@ void add_morison(const Strip& strip, const WettedStrip& wet, double density, con
     }
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
+  loads.inertia.moment -= density * second_moment * wet.axis.cross(change);
   for (std::size_t i = 0; i < strip.ends.size(); ++i) {
     const WettedEnd& e = wet.ends[i];
     const ExposedEnd& end = strip.ends[i];
@@ -232,8 +238,9 @@ void EngineeringSea::unload_feet(double t, const BodyStrips& own, const Motion& 
     add_at(loads.buoyancy, weight * std::max(0.0, -at.z()) * area, arm);
     loads.buoyancy.moment -= weight * Eigen::Vector3d::UnitZ().cross(motion.attitude * foot.second_moment);
     if (!waves || waves_.still()) continue;
-    const double pressure = waves_.kinematics(t, at, elevation(at.x(), at.y(), t)).pressure_over_density;
-    add_at(loads.inertia, environment_.water_density * pressure * area, arm);
+    const waves::Kinematics k = waves_.kinematics(t, at, elevation(at.x(), at.y(), t));
+    add_at(loads.inertia, environment_.water_density * k.pressure_over_density * area, arm);
+    loads.inertia.moment -= environment_.water_density * k.acceleration.cross(motion.attitude * foot.second_moment);
   }
 }
 

@@ -345,6 +345,29 @@ TEST_CASE("heave force on a float is the pressure on its keel: buoyancy and Frou
   CHECK(expected < 0.5 * 1025.0 * 9.81 * a * area);  // well below the rise of the surface alone
 }
 
+TEST_CASE("waves that run past a wide float turn it by their slope at its keel", "[sea][fast]") {
+  // Pressure on the sides of an upright cylinder has no arm about its axis but height: what is left is rho g I d eta/dx of the
+  // keel.
+  const double radius = 5.0, draft = 8.0, a = 0.01;
+  WavesOptions waves;
+  waves.model = "airy", waves.height_m = 2 * a, waves.period_s = 8.0;
+  SeaOptions options = model("morison");
+  options.added_mass_coefficient = options.axial_added_mass_coefficient = 0.0;
+  options.drag_coefficient = options.axial_drag_coefficient = 0.0, options.strip_length_m = 0.25;
+  const EngineeringSea sea(options, waves, tank, {spar(-draft, 5, radius)});
+  const double k = waves::wave_properties(8.0, 20.6, 9.81).wave_number, quarter = 2.0;
+  const double force = 1025.0 * pi * radius * radius * a * 9.81 / std::cosh(k * 20.6) *
+                       (std::sinh(k * 20.6) - std::sinh(k * (20.6 - draft)));  // of Froude and Krylov, along x
+  const double arm = (draft * std::sinh(k * 20.6) - (std::cosh(k * 20.6) - std::cosh(k * (20.6 - draft))) / k) /
+                         (std::sinh(k * 20.6) - std::sinh(k * (20.6 - draft))) -
+                     draft;
+  const double keel =
+      1025.0 * 9.81 * 0.25 * pi * std::pow(radius, 4) * a * k * std::cosh(k * (20.6 - draft)) / std::cosh(k * 20.6);
+  const Wrench w = load(sea, at(0, 0, 0), -quarter).about(Eigen::Vector3d::Zero());
+  CHECK(w.force.x() == Approx(force).epsilon(5e-3));
+  CHECK(w.moment.y() == Approx(force * arm + keel).epsilon(2e-3));
+}
+
 TEST_CASE("in long waves a float follows the surface: the loads give it just the acceleration of the water", "[sea][fast]") {
   // A buoy that moves and leans with the water needs force = mass (g + a) and no moment. Relative residual: of the order of k T
   // and k R.
@@ -496,6 +519,17 @@ TEST_CASE("waves that scatter at a wide column load it as MacCamy and Fuchs have
   const double expected = 4.0 * 1025.0 * 9.81 * amplitude * std::tanh(k * 20.6) / (k * k) / std::hypot(j, y);
   CHECK(largest() == Approx(expected).epsilon(2e-3));
   CHECK(slender > 1.1 * expected);  // Morison with 1 + C_a = 2
+  // Pressure on an upright wall has no arm but its height: on a pile about the bed that of cosh k(z + h).
+  const double depth = 20.6, kh = k * depth, arm = (kh * std::sinh(kh) - std::cosh(kh) + 1.0) / (k * std::sinh(kh));
+  const EngineeringSea pile(options, waves, tank, {spar(-depth, 5, radius)});
+  const Motion rest = at(0, 0, 0);
+  double force = 0.0, overturning = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const Wrench w = load(pile, rest, period * i / 400.0);
+    force = std::max(force, std::abs(w.force.x()));
+    overturning = std::max(overturning, std::abs(w.about(Eigen::Vector3d(0, 0, -depth)).moment.y()));
+  }
+  CHECK(overturning == Approx(force * arm).epsilon(5e-3));
   // Motion of the column itself has C_a as before.
   const EngineeringSea sea(options, waves, tank, {spar(-20.599, 5, radius)});
   options.coefficients.clear();
