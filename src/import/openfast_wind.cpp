@@ -89,6 +89,8 @@ std::string uniform_wind(DeckImport& run, const Deck& w, double hub_height) {
     if (row[0] <= before) file.fail(n, fmt::format("has a time of {:g} s, not later than the row before", row[0]));
     before = row[0];
     const double upflow = columns > 8 ? row[8] * radians_per_degree : 0.0, speed = row[1] + row[7];
+    if (speed < 0.0)
+      file.fail(n, fmt::format("has a gust of {:g} m/s in a wind of {:g}, which turns the wind round", row[7], row[1]));
     const double level = std::cos(upflow) * speed - std::sin(upflow) * row[3];
     if (level < 0.0) file.fail(n, fmt::format("has an upflow of {:g} degrees, which turns the wind round", row[8]));
     rows.push_back({row[0], level, -row[2] - all_turned, std::sin(upflow) * speed + std::cos(upflow) * row[3]});

@@ -585,6 +585,8 @@ TEST_CASE("the upflow angle of a deck's uniform wind turns speed, gust and verti
   CHECK((blows() - Eigen::Vector3d(10.0, 0.0, 2.0)).norm() < 1e-8);
   deck.files["uniform.wnd"] = "0 9 0 0 0 0 0 0 100\n";
   CHECK(deck.refusal().find("uniform.wnd:1") != std::string::npos);
+  deck.files["uniform.wnd"] = "0 9 0 0 0 0 0 -10\n";
+  CHECK_THAT(deck.refusal(), Catch::Contains("uniform.wnd:1") && Catch::Contains("gust of -10 m/s"));
 }
 
 TEST_CASE("the mean wind of a deck's Mann box is the scene's", "[import][fast]") {
