@@ -99,7 +99,7 @@ const scene::Section<TurbulenceOptions>& turbulence_section() {
                   scene::between(0.0, 1e6))
           .only_if("model", mann)
           .required()
-          .vector("spacing_m", &TurbulenceOptions::spacing_m, "m", "Distance between them.", scene::not_negative())
+          .vector("spacing_m", &TurbulenceOptions::spacing_m, "m", "Distance between them.", scene::positive())
           .only_if("model", mann)
           .required()
           .number("start_s", &TurbulenceOptions::start_s, "s", "Time in the box at t = 0.", scene::not_negative())

@@ -76,6 +76,9 @@ TEST_CASE("a rotor that its model cannot use is refused with what is wrong", "[a
       Case{rotor + "turbine = '" + table + "'\n[aero]\nmodel = 'bem'\n", "spindrift_aero_options.csv"},
       Case{"[rotor]\nbody = 'rotor'\naxis = [0, 0, 0]\n", "must not be zero"}, Case{"[wind]\nspeed_m_s = -1\n", "speed_m_s"},
       Case{rotor + "[aero]\nmodel = 'prescribed'\nthrust_N = 1\nharmonic_step = 0\n", "harmonic_step"},
+      Case{"[wind]\nspeed_m_s = 11\n[wind.turbulence]\nmodel = 'mann'\nfiles = ['" + table + "', '" + table + "', '" + table +
+               "']\npoints = [2, 2, 2]\nspacing_m = [0, 9, 9]\n",
+           "spacing_m"},
       Case{"[wind]\nspeed_m_s = 11\nprofile = 'power'\n", "power_law"},
       Case{"[wind]\nspeed_m_s = 11\nprofile = 'power_law'\n", "reference_height_m"},
       Case{"[wind]\nspeed_m_s = 11\nreference_height_m = 119\n", "reference_height_m"},
