@@ -86,14 +86,20 @@ TowerLoad Tower::drag(const TowerFrame& now, const Wind& wind, double t) const {
   TowerLoad load;
   const Eigen::Matrix3d axes = axes_of(now);
   const Eigen::Vector3d tower = axes * (stations_.back().from_hub - stations_.front().from_hub).normalized();
+  constexpr double most_pieces = 24.0;  // of the whole tower, some 5 m: the wind at the middle is the mean over a piece
+  const double whole = stations_.back().height - stations_.front().height;
   for (std::size_t k = 0; k + 1 < stations_.size(); ++k) {
     const Station &a = stations_[k], &b = stations_[k + 1];
-    const Eigen::Vector3d arm = axes * (0.5 * (a.from_hub + b.from_hub));
-    const Eigen::Vector3d met = wind.at(t, now.hub + arm) - now.hub_velocity - now.omega.cross(arm);
-    const Eigen::Vector3d level = met - met.dot(tower) * tower;
-    const double area = (a.radius + b.radius) * (b.height - a.height);
-    const Eigen::Vector3d force = 0.25 * density_ * (a.drag + b.drag) * area * level.norm() * level;
-    load.force += force, load.moment += arm.cross(force);
+    const double length = b.height - a.height, pieces = std::ceil(most_pieces * length / whole);
+    for (double n = 0.5; n < pieces; ++n) {
+      const double share = n / pieces;
+      const Eigen::Vector3d arm = axes * (a.from_hub + share * (b.from_hub - a.from_hub));
+      const Eigen::Vector3d met = wind.at(t, now.hub + arm) - now.hub_velocity - now.omega.cross(arm);
+      const Eigen::Vector3d level = met - met.dot(tower) * tower;
+      const double area = 2.0 * std::lerp(a.radius, b.radius, share) * length / pieces;
+      const Eigen::Vector3d force = 0.5 * density_ * std::lerp(a.drag, b.drag, share) * area * level.norm() * level;
+      load.force += force, load.moment += arm.cross(force);
+    }
   }
   return load;
 }
