@@ -213,17 +213,11 @@ class WindInTime {
   void make_box(const TurbulenceOptions& o, const WindOptions& wind) {
     start_ = o.start_s, origin_ = site_.hub;
     const double hub_wind = speed_ * wind_profile(wind).share(site_.hub.z());
-    const auto refuse = [](const std::string& key, const std::string& what) {
-      throw scene::SceneError({{"", 0, "wind.turbulence" + key, "", what}});
-    };
-    if (o.model != TurbulenceModel::bts && !(hub_wind > 0.0))
-      refuse("", "needs wind.speed_m_s above zero, which carries the box");
+    const auto refuse = [](const std::string& what) { throw scene::SceneError({{"", 0, "wind.turbulence", "", what}}); };
+    if (o.model != TurbulenceModel::bts && !(hub_wind > 0.0)) refuse("needs wind.speed_m_s above zero, which carries the box");
     switch (o.model) {
       case TurbulenceModel::bts:
         box_ = box_of(read_bts(o.file));
-        if (wind.speed_m_s > 0.0 && std::abs(wind.speed_m_s / box_.wind - 1.0) > 0.01)
-          refuse(".file", fmt::format("has a mean wind of {:.4g} m/s, wind.speed_m_s is {:.4g}: leave that out", box_.wind,
-                                      wind.speed_m_s));
         break;
       case TurbulenceModel::mann:
         box_ =
@@ -249,12 +243,11 @@ class WindInTime {
     const double radius = 0.5 * site_.diameter, above = radius + 0.5 * site_.up;
     if (0.5 * box_.width() < radius + 0.5 * site_.across || box_.bottom > site_.hub.z() - above ||
         box_.top() < site_.hub.z() + above)
-      refuse("",
-             fmt::format(
-                 "the box is {:.4g} m wide and goes from z = {:.4g} to {:.4g} m: it does not cover the rotor{} of {:.4g} m "
-                 "at {:.4g} m{}",
-                 box_.width(), box_.bottom, box_.top(), site_.across + site_.up > 0.0 ? "s" : "", site_.diameter, site_.hub.z(),
-                 site_.across > 0.0 ? fmt::format(", whose hubs are {:.4g} m apart across the wind", site_.across) : ""));
+      refuse(fmt::format(
+          "the box is {:.4g} m wide and goes from z = {:.4g} to {:.4g} m: it does not cover the rotor{} of {:.4g} m "
+          "at {:.4g} m{}",
+          box_.width(), box_.bottom, box_.top(), site_.across + site_.up > 0.0 ? "s" : "", site_.diameter, site_.hub.z(),
+          site_.across > 0.0 ? fmt::format(", whose hubs are {:.4g} m apart across the wind", site_.across) : ""));
     require_box_until_end();
   }
 

@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/scenario.hpp"
 
-#include <catch2/catch.hpp>
+#include <unistd.h>
 
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "src/aero/turbulence_box.hpp"
 #include "src/scene/error.hpp"
 #include "tests/src/coupling/scenes.hpp"
 
@@ -47,6 +52,25 @@ TEST_CASE("what has no effect or contradicts itself is refused by name", "[coupl
   CHECK_THAT(refusal({}, "[joints.buoy]\ntype = 'spherical'\nbodies = ['buoy', 'earth']\npoint_m = [0.0, 0.0, 0.0]\n"),
              Contains("is the name of another body"));
   CHECK_THAT(refusal({"moorings.chain.body='boy'"}), Contains("known: buoy"));
+}
+
+TEST_CASE("a speed of the wind beside a file that has another is refused", "[coupling][fast]") {
+  const std::string path = (std::filesystem::temp_directory_path() / ("spindrift_wind_" + std::to_string(getpid()))).string(),
+                    table = path + ".csv", box = path + ".bts";
+  std::ofstream(table) << "time_s,speed_m_s\n0,8\n10,12\n";
+  aero::BtsFile file{.id = 8, .up = 2, .across = 2, .steps = 2, .up_m = 9, .across_m = 9, .step_s = 0.5f, .wind = 8};
+  file.hub_height = 9, file.grid.resize(2 * 2 * 2 * 3);
+  write_bts(file, box);
+  const std::string rotor =
+      "[aero]\nmodel = 'thrust_curve'\nthrust_coefficient = 0.8\n"
+      "[rotor]\nbody = 'buoy'\nhub_m = [0.0, 0.0, 10.0]\ndiameter_m = 6.0\n[wind]\n";
+  for (const std::string& wind : {"table = '" + table + "'\n", "turbulence = {model = 'bts', file = '" + box + "'}\n"}) {
+    INFO(wind);
+    CHECK(refusal({}, rotor + wind) == "");
+    CHECK(refusal({"wind.speed_m_s=8.0"}, rotor + wind) == "");
+    CHECK_THAT(refusal({"wind.speed_m_s=12.0"}, rotor + wind), Contains("wind.speed_m_s") && Contains("has no effect"));
+  }
+  std::filesystem::remove(table), std::filesystem::remove(box);
 }
 
 TEST_CASE("waves that break and shapes below the bed are refused", "[coupling][fast]") {
