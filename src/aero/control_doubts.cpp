@@ -10,6 +10,7 @@
 #include "kernels/base/constants.hpp"
 #include "src/aero/control_options.hpp"
 #include "src/aero/operation.hpp"
+#include "src/aero/thrust_curve.hpp"
 
 namespace spindrift::aero {
 
@@ -110,6 +111,28 @@ void doubt_drive_train(scene::Doubts& doubts, const std::string& at, const Contr
                       "for rad/s on the low-speed shaft: not rpm, not the generator's"});
 }
 
+DriveTrainOptions drive_train(const ControlOptions& control) {
+  return control.model == ControlModel::library ? *control.drive_train : read_controller(control.file);
+}
+
+/// Beyond its edge a curve holds: blades at feather brake by no more than at its largest pitch.
+void doubt_curve(scene::Doubts& doubts, const ControlOptions& control, const std::string& curve) {
+  constexpr double near_feather = 20.0 * radians_per_degree;
+  const std::vector<double> pitches = pitches_of(curve);
+  const double feather = drive_train(control).feather;
+  const bool feathers =
+      control.start == ControlStart::parked ||
+      std::ranges::any_of(control.events, [](const EventOptions& event) { return event.what != ControlEvent::blade_stuck; });
+  if (pitches.size() < 2)
+    doubts.push_back({"aero.curve", "coefficients at one blade pitch", "several, from the least to feather",
+                      "pitch changes nothing: above rated wind the rotor runs away, and no event stops it"});
+  else if (feathers && pitches.back() < feather - near_feather)
+    doubts.push_back({"aero.curve",
+                      fmt::format("pitches up to {:.4g} degrees, with blades that feather at {:.4g}",
+                                  pitches.back() / radians_per_degree, feather / radians_per_degree),
+                      "pitches up to feather", "beyond its last pitch the curve stays as it is, and the rotor may not stop"});
+}
+
 }  // namespace
 
 scene::Doubts operation_doubts(const std::string& path, double radius) {
@@ -151,12 +174,12 @@ scene::Doubts controller_doubts(const std::string& path, double radius) {
   return doubts;
 }
 
-scene::Doubts control_doubts(const ControlOptions& control) {
+scene::Doubts control_doubts(const ControlOptions& control, const std::string& curve) {
   scene::Doubts doubts;
+  if (control.model != ControlModel::none && !curve.empty()) doubt_curve(doubts, control, curve);
   const bool library = control.model == ControlModel::library;
   for (std::size_t i = 0; i < control.events.size(); ++i)
-    if (control.events[i].what == ControlEvent::emergency_stop &&
-        !((library ? control.drive_train->brake_torque_N_m : read_controller(control.file).brake_torque_N_m) > 0.0))
+    if (control.events[i].what == ControlEvent::emergency_stop && !(drive_train(control).brake_torque_N_m > 0.0))
       doubts.push_back({fmt::format("control.events[{}]", i), "emergency_stop with a brake of 0 N m",
                         fmt::format("brake_torque_N_m above 0 in {}", library ? "control.drive_train" : control.file),
                         "without a brake it is a grid_loss: the blades alone slow the rotor down"});

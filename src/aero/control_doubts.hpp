@@ -14,7 +14,7 @@ struct ControlOptions;
 /// Of files that can be read, for blades of this length [m].
 scene::Doubts operation_doubts(const std::string& path, double radius);
 scene::Doubts controller_doubts(const std::string& path, double radius);
-/// Of the controller's events.
-scene::Doubts control_doubts(const ControlOptions& control);
+/// Of the controller's events, and of the curve that it pitches the blades on, if any.
+scene::Doubts control_doubts(const ControlOptions& control, const std::string& curve = "");
 
 }  // namespace spindrift::aero

@@ -8,6 +8,7 @@
 
 #include "src/aero/bladed_library.hpp"
 #include "src/aero/options.hpp"
+#include "src/aero/thrust_curve.hpp"
 #include "src/scene/document.hpp"
 
 namespace spindrift::aero {
@@ -287,6 +288,16 @@ void check_controller_file(scene::Document& doc, const ControlOptions& control, 
   } catch (const scene::SceneError& e) { doc.problem("control.file", e.what()); }
 }
 
+/// A rotor whose load neither its speed nor its pitch changes runs away above rated wind.
+void check_load(scene::Document& doc, const AeroOptions& aero) try {
+  const bool curve = aero.model == "thrust_curve";
+  if (aero.model != "prescribed" && !(curve && (aero.curve.empty() || pitches_of(aero.curve).empty()))) return;
+  doc.problem(curve ? aero.curve.empty() ? "aero.thrust_coefficient" : "aero.curve" : "aero.model",
+              "is a load that neither rotor speed nor blade pitch change: take \"bem\", or a curve over tip_speed_ratio and "
+              "blade_pitch_deg, or leave [control] out");
+} catch (const scene::SceneError&) {  // told by check_rotor
+}
+
 }  // namespace
 
 void check_control(scene::Document& doc, const ControlOptions& control, const AeroOptions& aero, const RotorOptions& rotor,
@@ -299,6 +310,7 @@ void check_control(scene::Document& doc, const ControlOptions& control, const Ae
     check_library(doc, control, blades);
   else
     check_controller_file(doc, control, operation, section);
+  check_load(doc, aero);
   if (control.peak_shaving && aero.model != "bem")
     doc.problem("control.peak_shaving",
                 fmt::format("needs aero.model = \"bem\": thrust by pitch is that of the blades' sections, not "

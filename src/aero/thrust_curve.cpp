@@ -119,6 +119,15 @@ Coefficients ThrustCurve::coefficients(double wind, double speed, double blade_p
           interpolate_bilinear(tip_speed_ratio_, pitch_, cq_, ratio, blade_pitch)};
 }
 
+std::vector<double> pitches_of(const std::string& curve) {
+  const scene::Columns file = scene::read_columns(curve);
+  if (!file.has("tip_speed_ratio")) return {};
+  if (!file.has("blade_pitch_deg")) return {0.0};
+  std::vector<double> pitches = sorted_unique(file["blade_pitch_deg"]);
+  for (double& pitch : pitches) pitch *= radians_per_degree;
+  return pitches;
+}
+
 AxialLoad ThrustCurve::operator()(double wind, double speed, double blade_pitch) const {
   const Coefficients c = coefficients(wind, speed, blade_pitch);
   const double force = pressure_area_ * std::abs(wind) * wind;

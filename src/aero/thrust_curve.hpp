@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "src/aero/options.hpp"
@@ -36,5 +37,8 @@ class ThrustCurve {
   std::vector<double> wind_, ct_, cq_, ct_slope_, cq_slope_;
   std::vector<double> tip_speed_ratio_, pitch_;  ///< nodes of a grid of ct_, cq_, tip-speed ratio fastest; pitch [rad]
 };
+
+/// Blade pitches of a curve over tip-speed ratio [rad], zero where it says none; empty for one against wind.
+std::vector<double> pitches_of(const std::string& curve);
 
 }  // namespace spindrift::aero

@@ -199,7 +199,7 @@ scene::Doubts rotor_doubts(const Scenario& s, const RotorSource& of, const Start
   doubt_separate(doubts, s);
   doubt_place(doubts, s, rotor.radius);
   doubt_bending(doubts, of);
-  append(doubts, aero::control_doubts(s.control));
+  append(doubts, aero::control_doubts(s.control, s.aero.curve));
   doubt_rotor_body(doubts, s, rotor);
   doubt_turn(doubts, s, rotor.speed);
   doubt_cells(doubts, s, rotor.radius);

@@ -7,6 +7,7 @@
 #include "src/aero/control_doubts.hpp"
 #include "src/scene/document.hpp"
 #include "tests/order.hpp"
+#include "tests/src/aero/data_file.hpp"
 
 using namespace spindrift;
 using namespace spindrift::aero;
@@ -121,6 +122,23 @@ TEST_CASE("an emergency stop without a brake is doubted by its place in the list
   CHECK(doubts[0].key == "control.events[1]");
   control.drive_train->brake_torque_N_m = 1e6;
   CHECK(control_doubts(control).empty());
+}
+
+TEST_CASE("a curve that has one pitch, or none near feather where blades go there, is doubted under a controller",
+          "[aero][fast]") {
+  ControlOptions control{.model = ControlModel::dtu, .file = turbines + "dtu_10mw_controller.toml"};
+  const auto doubts = [&](const std::vector<int>& pitches) {
+    std::string text = "tip_speed_ratio,blade_pitch_deg,ct,cp\n";
+    for (const int pitch : pitches) text += "4," + std::to_string(pitch) + ",.5,.4\n8," + std::to_string(pitch) + ",.5,.4\n";
+    return control_doubts(control, data_file("pitches.csv", text)).size();
+  };
+  CHECK(doubts({0}) == 1);
+  CHECK(doubts({0, 30}) == 0);
+  control.events = {{.what = ControlEvent::blade_stuck, .time_s = 1.0}};
+  CHECK(doubts({0, 30}) == 0);
+  control.events.push_back({.what = ControlEvent::shut_down, .time_s = 2.0});
+  CHECK(doubts({0, 30}) == 1);
+  CHECK(doubts({0, 30, 80}) == 0);
 }
 
 TEST_CASE("after a loss of grid the generator is off, the blades feather at their largest rate", "[aero][fast]") {

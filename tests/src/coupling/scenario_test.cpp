@@ -73,6 +73,28 @@ TEST_CASE("a speed of the wind beside a file that has another is refused", "[cou
   std::filesystem::remove(table), std::filesystem::remove(box);
 }
 
+TEST_CASE("a controller is refused with a load that neither rotor speed nor pitch change", "[coupling][fast]") {
+  const auto path = std::filesystem::temp_directory_path() / ("spindrift_curve_" + std::to_string(getpid()) + ".csv");
+  const std::string given = "aero.curve='" + path.string() + "'";
+  const auto problem = [](std::vector<std::string> aero) -> std::string {
+    aero.push_back("rotor.diameter_m=178.33");
+    try {
+      test::scenario("base = \"inputs/control/dtu_10mw_fixed.toml\"\n", aero);
+    } catch (const scene::SceneError& e) { return e.what(); }
+    return "";
+  };
+  std::ofstream(path) << "wind_m_s,ct,cp,speed_rpm\n4,.8,.4,6\n25,.1,.1,9.6\n";
+  CHECK_THAT(problem({"aero.model='prescribed'", "aero.thrust_N=1e6"}),
+             Contains("aero.model") && Contains("leave [control] out"));
+  CHECK_THAT(problem({"aero.model='thrust_curve'", "aero.thrust_coefficient=0.8"}),
+             Contains("aero.thrust_coefficient") && Contains("leave [control] out"));
+  CHECK_THAT(problem({"aero.model='thrust_curve'", given}), Contains("aero.curve") && Contains("leave [control] out"));
+  CHECK(problem({"aero.model='thrust_curve'", given, "control.model='none'"}) == "");
+  std::ofstream(path) << "tip_speed_ratio,blade_pitch_deg,ct,cp\n4,0,.5,.4\n8,0,.5,.4\n4,90,0,0\n8,90,0,0\n";
+  CHECK(problem({"aero.model='thrust_curve'", given}) == "");
+  std::filesystem::remove(path);
+}
+
 TEST_CASE("waves that break and shapes below the bed are refused", "[coupling][fast]") {
   CHECK_THAT(refusal({"sea.model='morison'", "waves.model='airy'", "waves.height_m=30.0", "waves.period_s=6.0"}),
              Contains("waves"));
