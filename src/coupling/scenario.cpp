@@ -490,11 +490,11 @@ Scenario read_scenario(scene::Document& document) {
       s.aero.model == "thrust_curve" || s.aero.model == "bem" || s.resolves_air(), aero::wind_section(),
       "aero.model = \"" + s.aero.model + "\" does not look at the wind; thrust_curve, bem and resolved air do", "aero.model");
   try {
-    if (document.given("wind.direction_deg") && aero::has_directions(s.wind))
+    const double given = s.wind.speed_m_s;  // 0 where it is left out, also in the scene as it ran; so is the direction
+    if (s.wind.direction != 0.0 && aero::has_directions(s.wind))
       document.problem("wind.direction_deg", "has no effect: the table has a column of this name");
-    const double given = s.wind.speed_m_s;
     s.wind.speed_m_s = aero::starting_speed(s.wind), s.wind.direction = aero::starting_direction(s.wind);
-    if (document.given("wind.speed_m_s") && std::abs(given - s.wind.speed_m_s) > 0.01 * s.wind.speed_m_s)
+    if (given > 0.0 && std::abs(given - s.wind.speed_m_s) > 0.01 * s.wind.speed_m_s)
       document.problem("wind.speed_m_s", fmt::format("has no effect: {} begins with {:.4g} m/s; leave this out",
                                                      s.wind.table.empty() ? "the .bts file" : "the table", s.wind.speed_m_s));
     if (s.resolves_air()) s.wind.incidence = s.aero.flow->incidence;

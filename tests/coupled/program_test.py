@@ -266,6 +266,15 @@ class Program(Folder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((self.out / "history.csv").read_bytes(), (again / "history.csv").read_bytes())
 
+    def test_the_scene_as_run_in_the_wind_of_a_table_can_be_run_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "scene.toml"
+            scene.with_name("wind.csv").write_text("time_s,speed_m_s,direction_deg\n0,9,5\n100,11,20\n")
+            scene.write_text(f'base = "{ROOT}/inputs/control/dtu_10mw_fixed.toml"\nwithout = ["wind.speed_m_s"]\n[wind]\ntable = "wind.csv"\n')
+            self.assertEqual(self.run_case("--until", 1, scene=scene).returncode, 0)
+            done = spindrift("check", self.out / "scene.toml")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_ranks_do_not_change_a_bit(self):
         self.assertEqual(self.run_case("--until", 5, scene=CASE2).returncode, 0)
         two = self.out.parent / "two"
