@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include "kernels/rigid/partition.hpp"
 #include "kernels/rigid/rotation.hpp"
@@ -46,23 +48,34 @@ std::vector<Pose> initial_poses(std::span<const Body> bodies, double length) {
   return poses;
 }
 
-/// Heavier bodies are rather kept independent: weights of coordinates from 1 (lightest) down to 1/2 (heaviest); ties by order.
-Eigen::VectorXd partition_weights(std::span<const Body> bodies) {
-  std::vector<std::size_t> order(bodies.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return bodies[a].mass > bodies[b].mass; });
+/// Bodies that carry others are rather kept independent: weights of coordinates from 1/2 (the first of them) up to 1.
+Eigen::VectorXd partition_weights(std::span<const Body> bodies, std::span<const Joint> joints) {
+  const std::vector<int> places = carrying_places(bodies, joints);
   Eigen::VectorXd weight(Eigen::Index(6 * bodies.size()));
-  for (std::size_t place = 0; place < order.size(); ++place)
-    weight.segment<6>(Eigen::Index(6 * order[place])).setConstant(0.5 + 0.5 * double(place + 1) / double(order.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    weight.segment<6>(Eigen::Index(6 * b)).setConstant(0.5 + 0.5 * double(places[b] + 1) / double(bodies.size()));
   return weight;
 }
 
 }  // namespace
 
+std::vector<int> carrying_places(std::span<const Body> bodies, std::span<const Joint> joints) {
+  std::vector<char> held(bodies.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) held[b] = bodies[b].on_beam;
+  for (const Joint& joint : joints)
+    if (joint.i == earth || joint.j == earth) held[std::size_t(std::max(joint.i, joint.j))] = true;
+  std::vector<std::size_t> order(bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t b) { return std::pair(held[b], bodies[b].mass); });
+  std::vector<int> places(bodies.size());
+  for (std::size_t place = 0; place < order.size(); ++place) places[order[place]] = int(place);
+  return places;
+}
+
 Mechanism::Mechanism(std::span<const Body> bodies, std::span<const Joint> joints)
     : length_(reference_length(bodies, joints)),
       joints_(joints, initial_poses(bodies, length_), length_),
-      weight_(partition_weights(bodies)),
+      weight_(partition_weights(bodies, joints)),
       solved_{.poses = initial_poses(bodies, length_)},
       attitude_(bodies.size()) {
   for (auto* v : {&x_, &solved_.velocity, &solved_.bias, &solved_.drift}) v->setZero(coordinates());

@@ -16,6 +16,10 @@
 
 namespace spindrift::bodies {
 
+/// Place of each body in the order in which they carry one another, from 0: first those that the earth or a beam holds, then
+/// heavier ones; ties by order. A driven rotor turns on its nacelle, however heavy it is.
+std::vector<int> carrying_places(std::span<const Body> bodies, std::span<const Joint> joints);
+
 class Mechanism {
  public:
   Mechanism(std::span<const Body> bodies, std::span<const Joint> joints);

@@ -27,8 +27,10 @@ struct Body {
   double mass = 1.0;                                      ///< [kg]
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Identity();  ///< [kg m2]
   /// False leaves out the gyroscopic moment: omega x (I omega) and, where the body spins on a revolute or cylindrical joint with
-  /// a heavier body, the part of its angular acceleration that is spin times the turning of that support (docs/theory/bodies.md).
+  /// a body that carries it, the part of its angular acceleration that is spin times the turning of that support
+  /// (docs/theory/bodies.md).
   bool gyroscopic = true;
+  bool on_beam = false;  ///< at an end of a beam
   Motion initial;
 };
 

@@ -31,16 +31,17 @@ constexpr Turning turning_in_a_piece(Integrator integrator) {
 /// Of a step of so many seconds.
 double pieces_of(double step, double rate, double turning) { return std::max(1.0, std::ceil(step * rate / turning)); }
 
-/// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a heavier body; the body
+/// Support of each body: what carries it in its first revolute or cylindrical joint with the earth or a body before it; the body
 /// itself where it has none.
 std::vector<int> supports(std::span<const Body> bodies, std::span<const Joint> joints) {
+  const std::vector<int> places = carrying_places(bodies, joints);
   std::vector<int> support(bodies.size());
   for (int b = 0; b < int(bodies.size()); ++b) {
     support[std::size_t(b)] = b;
     for (const Joint& joint : joints) {
       if (!turns(joint.type) || (joint.i != b && joint.j != b)) continue;
       const int other = joint.i == b ? joint.j : joint.i;
-      if (other != earth && bodies[std::size_t(other)].mass <= bodies[std::size_t(b)].mass) continue;
+      if (other != earth && places[std::size_t(other)] > places[std::size_t(b)]) continue;
       support[std::size_t(b)] = other;
       break;
     }

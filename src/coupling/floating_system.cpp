@@ -98,6 +98,9 @@ FloatingSystem::FloatingSystem(Scenario scenario)
   add_joint_laws(s, sources);
   if (!s.beams.empty()) {
     beams_ = make_beams(s.beams, s.bodies, bodies, joints);
+    for (const bodies::Beam& beam : beams_)
+      for (const int end : {beam.i, beam.j})
+        if (end != bodies::earth) bodies[std::size_t(end)].on_beam = true;
     add_beams(s, beams_, sources);
   }
   for (bodies::Joint& joint : joints_in_plane(s)) joints.push_back(std::move(joint));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/rigid/rotation.hpp"
+#include "src/bodies/statics.hpp"
 #include "tests/src/bodies/examples.hpp"
 
 using namespace spindrift;
@@ -68,6 +69,25 @@ TEST_CASE("a driver turns its joint at its rate over many turns, whatever it car
   run(system, state, 1e-3, 10000);
   CHECK(state.joint_angles[1] == Approx(50.0).margin(1e-9));
   CHECK(system.constraint_residual(state, 10.0) < 1e-12);
+}
+
+TEST_CASE("a driven rotor turns on what the earth or a beam holds, however heavy it is", "[bodies][fast]") {
+  const bool on_beam = GENERATE(false, true), first = GENERATE(false, true);
+  std::vector<Body> bodies{box("nacelle", {0, 0, 0}), box("rotor", {0.3, 0, 1})};
+  bodies[1].mass = 5.0;
+  bodies[1].gyroscopic = false;
+  bodies[0].on_beam = on_beam;
+  Joint bearing = joint("bearing", JointType::revolute, first ? 1 : 0, first ? 0 : 1, {0, 0, 1}, x);
+  bearing.rotation = PrescribedMotion{.rate = first ? -5.0 : 5.0};
+  std::vector<Joint> joints{bearing};
+  if (!on_beam) joints.push_back(joint("foot", JointType::spherical, earth, 0, {0, 0, -1}));
+  System system(bodies, joints, {});
+  const BodiesState state = start(system);
+  CHECK(state.motions[0].omega.norm() == 0.0);
+  CHECK(state.motions[1].omega.x() == Approx(5.0));
+  const BodiesState rest = find_equilibrium(system, state, 0.0).state;
+  CHECK(rest.motions[0].omega.norm() == 0.0);
+  CHECK(rest.motions[1].omega.x() == Approx(5.0));
 }
 
 TEST_CASE("a prescribed slide moves its body along the axis and reports the force it takes", "[bodies][fast]") {

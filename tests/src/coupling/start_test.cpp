@@ -4,8 +4,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "kernels/base/constants.hpp"
 #include "src/scene/error.hpp"
 #include "tests/src/coupling/scenes.hpp"
+#include "tests/src/coupling/windows.hpp"
 
 using namespace spindrift;
 using namespace spindrift::coupling;
@@ -102,6 +104,17 @@ TEST_CASE("a step above the limit of the integrator is refused with limit and mo
                     Contains("time.step_s") && Contains("heave of buoy"));
   FloatingSystem naive(test::scenario(test::buoy, {"time.integrator='explicit_euler'"}));
   CHECK_THROWS_WITH(require_stable(naive, stability(naive, make_start(naive).state)), Contains("not damped"));
+}
+
+TEST_CASE("a driven rotor that is heavier than its nacelle turns, and the nacelle on its tower does not", "[coupling][fast]") {
+  const auto floating =
+      test::floating_of(SPINDRIFT_SOURCE_DIR "/inputs/validation/dtu_tower/dtu_tower.toml",
+                        {"bodies.nacelle.mass_kg=2e5", "bodies.rotor.mass_kg=3e5", "bodies.nacelle.velocity_m_s=[0.0,0.0,0.0]",
+                         "bodies.rotor.velocity_m_s=[0.0,0.0,0.0]", "joints.shaft.type='revolute'",
+                         "joints.shaft.axis=[1.0,0.0,0.0]", "joints.shaft.rotation.speed_rpm=9.6"});
+  const Start start = make_start(*floating);
+  CHECK(start.state.motions[0].omega.norm() == 0.0);
+  CHECK(start.state.motions[1].omega.x() == Approx(9.6 * rad_s_per_rpm));
 }
 
 TEST_CASE("a scene has the sources of load that it names and no others", "[coupling][fast]") {
