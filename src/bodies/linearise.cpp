@@ -74,20 +74,20 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   if (!result.report.ok()) return result;
   const Eigen::Index n = system.freedoms();
   result.matrix.setZero(2 * n, 2 * n);
-  const Eigen::VectorXd u0 = system.chart_velocity(), x0 = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd x_rate(n), u_rate(n), x_back(n), u_back(n);
+  result.matrix.topRightCorner(n, n).setIdentity();
+  const Eigen::VectorXd u0 = system.chart_velocity();
+  Eigen::VectorXd ahead(n), behind(n);
   for (Eigen::Index column = 0; column < 2 * n; ++column) {
     const bool position = column < n;
     const double difference = position ? position_difference : velocity_difference;
     Eigen::VectorXd step = Eigen::VectorXd::Unit(n, position ? column : column - n) * (0.5 * difference);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
     const Eigen::VectorXd dx = position ? step : zero, du = position ? zero : step;
-    if (!system.rates(t_s, x0 + dx, u0 + du, x_rate, u_rate) || !system.rates(t_s, x0 - dx, u0 - du, x_back, u_back)) {
+    if (!system.rates(t_s, dx, u0 + du, ahead) || !system.rates(t_s, -dx, u0 - du, behind)) {
       result.report = system.chart_report();
       return result;
     }
-    result.matrix.col(column).head(n) = (x_rate - x_back) / difference;
-    result.matrix.col(column).tail(n) = (u_rate - u_back) / difference;
+    result.matrix.col(column).tail(n) = (ahead - behind) / difference;
   }
   if (n == 0) return result;
   system.open_chart(state, t_s);  // direction names need the tangent at the state

@@ -1,7 +1,8 @@
 // The loaded system linearised about a state: modes with their names, and the largest stable step of each integrator.
-// d/dt (x, u) = A (x, u) in the chart of the state, by central differences of the system's own rates: added mass, drivers, joints
-// and every source of load are in it. Theory: docs/theory/bodies.md, "Stability". Used by `spindrift check` through src/coupling;
-// tested in tests/src/bodies/linearise_test.cpp. SPDX-License-Identifier: Apache-2.0
+// d/dt (x, u) = A (x, u) in the chart of the state, in axes that do not turn with the bodies, by central differences of the
+// system's own rates: added mass, drivers, joints and every source of load are in it. Theory: docs/theory/bodies.md, "Stability".
+// Used by `spindrift check` through src/coupling; tested in tests/src/bodies/linearise_test.cpp. SPDX-License-Identifier:
+// Apache-2.0
 #pragma once
 
 #include <Eigen/Core>

@@ -242,6 +242,16 @@ void Mechanism::chart_rate(Eigen::VectorXd& x_rate) const {
   }
 }
 
+void Mechanism::add_turning(Eigen::VectorXd& u_rate) const {
+  const std::vector<int>& independent = coordinates_.independent();
+  for (std::size_t c = 0; c < independent.size(); ++c) {
+    const int k = independent[c], first = 6 * (k / 6) + 3;
+    if (k < first) continue;
+    const Eigen::Vector3d spin = chart_.centre[std::size_t(k / 6)].omega;
+    u_rate[Eigen::Index(c)] += spin.cross(solved_.velocity.segment<3>(first))[k - first];
+  }
+}
+
 void Mechanism::motions(std::vector<Motion>& out) const {
   for (std::size_t b = 0; b < solved_.poses.size(); ++b) {
     const auto k = Eigen::Index(6 * b);

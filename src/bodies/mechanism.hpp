@@ -39,6 +39,8 @@ class Mechanism {
   void solve_velocities(const Eigen::VectorXd& u);
   /// Independent components of d(coordinates)/dt.
   void chart_rate(Eigen::VectorXd& x_rate) const;
+  /// From rates of the independent velocities, in axes of the bodies, to those in axes that stay where these are at the centre.
+  void add_turning(Eigen::VectorXd& u_rate) const;
   /// Motions in SI units.
   void motions(std::vector<Motion>& out) const;
   /// Angles of the joints that turn, continued from those in `angles`.

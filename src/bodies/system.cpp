@@ -612,11 +612,10 @@ int System::freedoms() const { return w_->mechanism.freedoms(); }
 const Eigen::VectorXd& System::chart_velocity() const { return w_->mechanism.open_velocity(); }
 const StepReport& System::chart_report() const { return w_->report; }
 
-bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate,
-                   Eigen::VectorXd& u_rate) {
+bool System::rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& u_rate) {
   if (!w_->accelerations(t_s, x, u)) return false;
-  w_->mechanism.chart_rate(x_rate);
   u_rate = w_->acceleration;
+  w_->mechanism.add_turning(u_rate);
   return true;
 }
 

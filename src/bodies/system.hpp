@@ -129,8 +129,9 @@ class System {
   StepReport open_chart(const BodiesState& state, double t_s);
   int freedoms() const;
   const Eigen::VectorXd& chart_velocity() const;  ///< u of the state
-  /// dx/dt and du/dt at chart point (x, u).
-  bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& x_rate, Eigen::VectorXd& u_rate);
+  /// du/dt at chart point (x, u) in axes that stay where those of the bodies are at the centre. Small deviations from the motion
+  /// through the centre have dx/dt = u in them, also of a body that spins.
+  bool rates(double t_s, const Eigen::VectorXd& x, const Eigen::VectorXd& u, Eigen::VectorXd& u_rate);
   /// Generalised forces of the loads at x with everything at rest but what drivers turn (a rotor has its thrust while it spins),
   /// and the mass matrix (added mass included), both in chart coordinates. all_loads: sum over sources and bodies of |force| /
   /// sqrt(mass), to measure a balance against [sqrt(kg) m/s2 over L].

@@ -48,6 +48,19 @@ TEST_CASE("frequencies and damping of a body on springs, added mass included", "
   CHECK(std::abs(mode_named(l, "yaw of buoy").eigenvalue) == Approx(std::sqrt(100.0 / 7)).epsilon(1e-7));
 }
 
+TEST_CASE("a hanging top that spins precesses and nutates in its modes as theory has it", "[bodies][fast]") {
+  // A s^2 - C W s - m g l = 0 about the pivot, for what is seen from the earth: s [rad/s].
+  constexpr double mass = 100.0, arm = 1.0, along = 100.0, across = 80.0 + mass * arm * arm, spin = 6.0, g = 9.80665;
+  std::vector<Body> bodies{body("top", mass, {80.0, 80.0, along}, {0, 0, -arm})};
+  bodies[0].initial.omega = {0, 0, spin};
+  System system(bodies, {joint("pin", JointType::spherical, earth, 0, {0, 0, 0})}, {gravity_source(bodies, g)});
+  const Linearisation l = linearise(system, start(system), 0.0);
+  REQUIRE(l.modes.size() >= 2);
+  const double half = along * spin / (2.0 * across), root = std::sqrt(half * half + mass * g * arm / across);
+  CHECK(l.modes[0].eigenvalue.imag() == Approx(root + half).epsilon(1e-6));
+  CHECK(l.modes[1].eigenvalue.imag() == Approx(root - half).epsilon(1e-6));
+}
+
 TEST_CASE("freedoms without stiffness are counted once, damped or not", "[bodies][fast]") {
   const double damping = GENERATE(0.0, 5.0);
   System system({body("buoy", 10.0, {5, 6, 7}, {0, 0, 0})}, {},
