@@ -41,6 +41,21 @@ void carry(const Beam& beam, const BodiesState& state, std::vector<Moving>& all)
   base.inertia += top.inertia + top.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
 }
 
+/// Beams on the end of another come before it: what they carry moves with their start, and belongs to it, before that is taken
+/// apart. Of a ring any is the first.
+std::vector<const Beam*> from_the_top(std::span<const Beam> beams) {
+  std::vector<const Beam*> left, order;
+  for (const Beam& beam : beams) left.push_back(&beam);
+  while (!left.empty()) {
+    const auto carries = [&](const Beam* beam) { return std::ranges::find(left, beam->j, &Beam::i) != left.end(); };
+    auto next = std::ranges::find_if_not(left, carries);
+    if (next == left.end()) next = left.begin();
+    order.push_back(*next);
+    left.erase(next);
+  }
+  return order;
+}
+
 /// How a beam deforms where its end's body moves so against its start, by that body's kinetic energy.
 std::string deformation_name(const Beam& beam, const BodiesState& state, const Moving& top) {
   constexpr std::array<const char*, 4> names{"bending in x", "bending in y", "stretching", "torsion"};
@@ -57,7 +72,7 @@ std::string name_of(const System& system, const BodiesState& state, const Eigen:
                     std::span<const Beam> beams) {
   constexpr std::array<const char*, 6> names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
   std::vector<Moving> all = moving(system, state, system.motion_of_freedoms() * chart_direction);
-  for (const Beam& beam : beams) carry(beam, state, all);
+  for (const Beam* beam : from_the_top(beams)) carry(*beam, state, all);
   double most = -1.0;
   std::size_t mover = 0, axis = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
