@@ -251,8 +251,9 @@ std::vector<std::string> told_apart(const std::vector<bodies::Mode>& modes) {
   return names;
 }
 
-void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearisation) {
-  fmt::print("\nModes about the start{}\n",
+void print_modes(FloatingSystem& floating, const coupling::Stability& stability) {
+  const bodies::Linearisation& linearisation = stability.shown();
+  fmt::print("\nModes about the {}{}\n", stability.at_rest ? "static equilibrium" : "start",
              floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
   const std::vector<std::string> names = told_apart(linearisation.modes);
   for (std::size_t n = 0; n < names.size(); ++n)
@@ -266,6 +267,8 @@ void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearis
                  mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
   if (const Eigen::Index free = linearisation.freedoms_without_stiffness(); free > 0)
     fmt::print("  {} of {} freedoms without stiffness\n", free, linearisation.matrix.rows() / 2);
+  if (!floating.beams().empty() && !floating.scenario().start.equilibrium && !stability.at_rest)
+    fmt::print("  without the weight that softens beams: it does so in a static equilibrium, and none is known\n");
   if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
     fmt::print(
         "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
@@ -278,7 +281,7 @@ void print_modes(FloatingSystem& floating, const bodies::Linearisation& linearis
       floating.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());
   fmt::print("\nLargest stable step (the scene {}, with {})\n", asked, name(time.integrator));
   for (const Integrator integrator : {Integrator::rk4, Integrator::symplectic, Integrator::explicit_euler}) {
-    const bodies::StepLimit limit = step_limit(integrator, linearisation);
+    const bodies::StepLimit limit = step_limit(integrator, stability.linearisation);
     if (std::isinf(limit.step_s))
       fmt::print("  {:<16}any\n", name(integrator));
     else if (limit.step_s == 0.0)
@@ -331,7 +334,7 @@ void print_all_frequencies(const FloatingSystem& floating, const coupling::Start
   for (const auto& [rotors, c] : tables) print_frequencies(rotors, c);
 }
 
-void print_coupling(FloatingSystem& floating, const coupling::Start& start, const bodies::Linearisation& linearisation) {
+void print_coupling(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
   if (floating.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
     fmt::print(
         "\nCoupling of rotor and platform: monolithic; the rotor answers in every evaluation of the bodies, nothing lags\n");
@@ -339,9 +342,9 @@ void print_coupling(FloatingSystem& floating, const coupling::Start& start, cons
   }
 
   const double speed = floating.rotor()->state(0.0, start.state.motions).speed;
-  const coupling::Campbell c = campbell(floating.scenario(), linearisation, speed);
+  const coupling::Campbell c = campbell(floating.scenario(), stability.shown(), speed);
   const coupling::FullLoads full(floating);
-  const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c, linearisation);
+  const coupling::LooseVerdict verdict = loose_verdict(floating, start.state, c, stability.linearisation);
   if (verdict.schemes.empty()) {
     fmt::print("\nCoupling of rotor and platform: the bodies cannot move, any scheme will do\n");
     return;
@@ -631,7 +634,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
     print_doubts(angles, coupling::doubts(floating, start, stability));
     if (floating.rotor() && !start.state.motions.empty()) print_rotors_at_start(floating, start);
-    if (!start.state.motions.empty()) print_modes(floating, stability.linearisation), print_all_blade_modes(floating);
+    if (!start.state.motions.empty()) print_modes(floating, stability), print_all_blade_modes(floating);
   }
   if (refusal) throw *refusal;
   if (world.rank != 0) return done;
@@ -645,8 +648,8 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     return done;
   }
   if (floating.rotor()) {
-    print_all_frequencies(floating, start, stability.linearisation);
-    print_coupling(floating, start, stability.linearisation);
+    print_all_frequencies(floating, start, stability.shown());
+    print_coupling(floating, start, stability);
   }
   const auto equilibrium_now = [&] {
     const coupling::MeanLoads mean(floating);
@@ -654,7 +657,10 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   };
   if (!coupling::has_level_water(floating.scenario()))
     fmt::print("\nStatic equilibrium: not sought, as the water of [[sea.water]] is not level at z = 0 from side to side\n");
-  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : equilibrium_now(); found.problem.empty())
+  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium
+                                             : stability.rest  ? *stability.rest
+                                                               : equilibrium_now();
+           found.problem.empty())
     print_equilibrium(floating, found);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", found.problem);

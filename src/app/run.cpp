@@ -251,7 +251,7 @@ ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
     warn(ready.doubts);
     throw;
   }
-  ready.modes = found.linearisation.modes;
+  ready.modes = found.shown().modes;
   ready.floating->multibody().open_chart(ready.start.state, 0.0);  // the first solution begins from it
   return ready;
 }

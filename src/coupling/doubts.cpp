@@ -184,7 +184,7 @@ std::string what_holds(const std::string& mode) {
 
 /// Of all modes, which come fastest first [1/s]; 0 without any.
 double fastest_rate(const Stability& stability) {
-  return stability.linearisation.modes.empty() ? 0.0 : std::abs(stability.linearisation.modes.front().eigenvalue);
+  return stability.shown().modes.empty() ? 0.0 : std::abs(stability.shown().modes.front().eigenvalue);
 }
 
 void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
@@ -192,7 +192,7 @@ void doubt_modes(scene::Doubts& doubts, const FloatingSystem& floating, const St
   const bool drag =
       floating.scenario().has_given_waves();  // quadratic in the motion, it is not in the modes: only what no drag holds is told
   const double fastest = fastest_rate(stability);
-  for (const bodies::Mode& mode : stability.linearisation.modes) {
+  for (const bodies::Mode& mode : stability.shown().modes) {
     const double rate = mode.eigenvalue.real(), size = std::abs(mode.eigenvalue);
     if (rate <= 1e-3 * size || rate <= 1e-4 || size < 1e-6 * fastest) continue;
     const double doubling = std::log(2.0) / rate;
@@ -224,7 +224,7 @@ void doubt_tuning(scene::Doubts& doubts, const Scenario& s, const Stability& sta
   if (s.control.model != aero::ControlModel::dtu || s.control.tuning != aero::Tuning::fixed_foundation) return;
   if (s.wind.speed_m_s < rated_wind(s.rotor)) return;
   constexpr double fast_s = 12.0;  // the gains answer within some 10 to 17 s
-  for (const bodies::Mode& mode : stability.linearisation.modes)
+  for (const bodies::Mode& mode : stability.shown().modes)
     if (mode.name == "pitch of " + s.rotor.body && mode.eigenvalue.imag() > 0.0 && mode.period_s() > fast_s)
       doubts.push_back(
           {"control.tuning",
@@ -239,7 +239,7 @@ void doubt_resonance(scene::Doubts& doubts, const FloatingSystem& floating, cons
   if (floating.beams().empty()) return;
   const double turns = std::abs(rotor.state(0.0, start.state.motions).speed) / (2.0 * pi);
   constexpr double close = 0.05, light = 0.1, rigid_Hz = 0.1;  // floats swing slower than rigid_Hz
-  for (const bodies::Mode& mode : stability.linearisation.modes) {
+  for (const bodies::Mode& mode : stability.shown().modes) {
     const double f = std::abs(mode.eigenvalue) / (2.0 * pi);
     if (mode.eigenvalue.imag() < 1e-6 || f < rigid_Hz || mode.damping_ratio() > light) continue;
     for (const int times : {1, blades})
@@ -307,7 +307,7 @@ void doubt_length(scene::Doubts& doubts, const FloatingSystem& floating, const S
   const Scenario& s = floating.scenario();
   if (floating.particle_plan() || s.has_waves() || !s.has_sea() || s.is_controlled()) return;
   double shortest = 0.0;
-  for (const bodies::Mode& mode : stability.linearisation.modes)
+  for (const bodies::Mode& mode : stability.shown().modes)
     if (mode.eigenvalue.imag() > 1e-6 && (shortest == 0.0 || mode.period_s() < shortest)) shortest = mode.period_s();
   if (shortest > 0.0 && s.time.end_s < 0.5 * shortest)
     doubts.push_back({"time.end_s",
@@ -605,7 +605,7 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
   const Scenario& s = floating.scenario();
   if (!floating.has_interface() || floating.particle_plan()) return;
   constexpr double light = 0.3;
-  for (const bodies::Mode& mode : stability.linearisation.modes)  // fastest first
+  for (const bodies::Mode& mode : stability.shown().modes)  // fastest first
     if (mode.eigenvalue.imag() > 1e-6 && mode.damping_ratio() < light) {
       if (s.time.window_s > mode.period_s())
         doubts.push_back({"time.window_s",

@@ -112,9 +112,18 @@ Start make_start(FloatingSystem& floating) {
 Stability stability(FloatingSystem& floating, const bodies::BodiesState& state) {
   if (state.motions.empty()) return {{}, {std::numeric_limits<double>::infinity(), "", {}}};
   const MeanLoads mean(floating);
-  Stability result{linearise(floating.multibody(), state, 0.0), {}};
-  name_modes(result.linearisation, floating.multibody(), state, floating.beams());
-  result.limit = step_limit(floating.multibody().integrator(), result.linearisation);
+  bodies::System& system = floating.multibody();
+  const auto about = [&](const bodies::BodiesState& there) {
+    bodies::Linearisation found = linearise(system, there, 0.0);
+    name_modes(found, system, there, floating.beams());
+    return found;
+  };
+  Stability result{about(state), {}};
+  result.limit = step_limit(system.integrator(), result.linearisation);
+  if (floating.beams().empty() || floating.scenario().start.equilibrium) return result;
+  if (!has_level_water(floating.scenario())) return result;
+  result.rest = find_equilibrium(system, state, 0.0);
+  if (result.rest->problem.empty()) result.at_rest = about(result.rest->state);
   return result;
 }
 

@@ -26,6 +26,12 @@ Start make_start(FloatingSystem& floating);
 struct Stability {
   bodies::Linearisation linearisation;
   bodies::StepLimit limit;
+  /// Where beams do not start in equilibrium: the one that was sought, and the linearisation there if it was found. Weight
+  /// softens a beam by the compression that only this state has.
+  std::optional<bodies::Equilibrium> rest = {};
+  std::optional<bodies::Linearisation> at_rest = {};
+  /// The one whose modes are told and compared with what shakes.
+  const bodies::Linearisation& shown() const { return at_rest ? *at_rest : linearisation; }
 };
 Stability stability(FloatingSystem& floating, const bodies::BodiesState& state);
 

@@ -359,7 +359,7 @@ def modes_of(run, body):
 
 
 def modes(run):
-    """Modes of the bodies about the start, and where the rotor's frequencies and the waves meet them."""
+    """Modes of the bodies, and where the rotor's frequencies and the waves meet them."""
     found = [m for m in run.summary.get("modes") or [] if isinstance(m, dict) and isinstance(m.get("frequency_Hz"), (int, float))]
     if not found:
         return ""
@@ -371,17 +371,17 @@ def modes(run):
     swing = [m for m in found if m["frequency_Hz"] > 0.0]
     rows = [[m["name"], number(1.0 / m["frequency_Hz"]), number(m["frequency_Hz"]), f"{100.0 * m['damping']:.2f} %"] for m in swing]
     rows += [[m["name"], "–", "–", f"rate {m['damping']:+.3g} 1/s"] for m in found if m["frequency_Hz"] <= 0.0]
-    out = parts.table(["Mode about the start", "Period [s]", "Frequency [Hz]", "Damping, of critical"], rows)
+    out = parts.table(["Mode", "Period [s]", "Frequency [Hz]", "Damping, of critical"], rows)
     at = marks(run)
     if swing and "1P" in at:
         named = [(m["name"], m["frequency_Hz"]) for m in swing]
         figure = figures.campbell(named, at.get("wave"), 60.0 * at["1P"], run.blades())
-        out += safe('<div class="figures">') + safe(_figure("Campbell diagram", None, figure, "Modes about the start do not know the rotor's speed; dotted: that of the run.")) + safe("</div>")
+        out += safe('<div class="figures">') + safe(_figure("Campbell diagram", None, figure, "The modes do not know the rotor's speed; dotted: that of the run.")) + safe("</div>")
     return out
 
 
 def decays(run):
-    """Periods and damping of free decays from their peaks, beside the mode about the start."""
+    """Periods and damping of free decays from their peaks, beside the mode."""
     rows = []
     for d in decay.decays(run):
         body, _, quantity = d.column.rpartition(".")
@@ -390,7 +390,7 @@ def decays(run):
         rows.append([_spoken(run, d.column), f"{d.swings / 2:g}", number(d.period), number(1.0 / own) if own else "–", f"{100.0 * d.damping:.2f} %", change])
     if not rows:
         return ""
-    return parts.table(["Motion", "Swings", "Period [s]", "Of the mode about the start [s]", "Damping, of critical", "First to last third"], rows) + safe(
+    return parts.table(["Motion", "Swings", "Period [s]", "Of the mode [s]", "Damping, of critical", "First to last third"], rows) + safe(
         '<p class="facts">From peaks and troughs: the mean time from each to the next, the logarithmic decrement of the ranges between them.</p>')
 
 
@@ -423,7 +423,7 @@ def spectra(runs):
             own = {motion: f for motion, f in own.items() if any(label == motion and not figures.is_nothing(runs[0], n) for label, n in panels)}
             figure = figures.spectra(runs, panels, found | own)
             if figure is not None:
-                dotted = " Dotted: the motion's own mode about the start, " + ", ".join(f"{m} {f:.3g} Hz" for m, f in own.items()) + "." if own else ""
+                dotted = " Dotted: the motion's own mode, " + ", ".join(f"{m} {f:.3g} Hz" for m, f in own.items()) + "." if own else ""
                 drawn.setdefault(body, []).append(_figure(f"{body}: spectra of {title}", _run_legend(runs), figure, words + dotted))
     first, *others = drawn.values() or [[]]
     out = f'<div class="figures">{"".join(first)}</div>' if first else ""

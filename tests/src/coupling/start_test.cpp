@@ -106,6 +106,18 @@ TEST_CASE("a step above the limit of the integrator is refused with limit and mo
   CHECK_THROWS_WITH(require_stable(naive, stability(naive, make_start(naive).state)), Contains("not damped"));
 }
 
+TEST_CASE("modes of a tower that is let go are those about its equilibrium, where weight softens it", "[coupling][fast]") {
+  const std::string tower = SPINDRIFT_SOURCE_DIR "/inputs/validation/dtu_tower/dtu_tower.toml";
+  const auto floating = test::floating_of(tower, {});
+  const Stability s = stability(*floating, make_start(*floating).state);
+  const auto slowest = [](const bodies::Linearisation& l) { return std::abs(l.modes.back().eigenvalue) / (2.0 * pi); };
+  CHECK(slowest(s.shown()) == Approx(0.2473).margin(1e-4));
+  CHECK(slowest(s.linearisation) == Approx(0.2532).margin(1e-4));
+  const auto at_rest = test::floating_of(
+      tower, {"start.equilibrium=true", "bodies.nacelle.velocity_m_s=[0.0,0.0,0.0]", "bodies.rotor.velocity_m_s=[0.0,0.0,0.0]"});
+  CHECK(slowest(stability(*at_rest, make_start(*at_rest).state).shown()) == Approx(slowest(s.shown())).epsilon(1e-5));
+}
+
 TEST_CASE("a driven rotor that is heavier than its nacelle turns, and the nacelle on its tower does not", "[coupling][fast]") {
   const auto floating =
       test::floating_of(SPINDRIFT_SOURCE_DIR "/inputs/validation/dtu_tower/dtu_tower.toml",

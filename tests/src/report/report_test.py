@@ -151,7 +151,7 @@ source = "Bak et al. 2013"
         text = parsed.text.replace("\n", "")
         self.assertIn("surge of platform8.1300.12305.00 %", text)
         self.assertIn("yaw of rotor––rate -0.2 1/s", text)
-        for words in ("Campbell diagram", "1P", "3P", "Tasks of each thread", "rank 0, thread 1", "the motion's own mode about the start, surge 0.123 Hz"):
+        for words in ("Campbell diagram", "1P", "3P", "Tasks of each thread", "rank 0, thread 1", "the motion's own mode, surge 0.123 Hz"):
             self.assertIn(words, parsed.text)
 
     def test_what_a_run_lacks_has_no_section(self):
