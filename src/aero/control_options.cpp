@@ -285,6 +285,10 @@ void check_controller_file(scene::Document& doc, const ControlOptions& control, 
                                                   ? "rotor.operation has no row between its least and its greatest speed, "
                                                     "which would say which tip-speed ratio to hold"
                                                   : "no rotor.operation with power_W says which tip-speed ratio to hold"));
+    if (operation && operation->power.empty() && !operation->pitch.empty() && operation->below_rated().wind.empty())
+      doc.problem(
+          section + ".operation",
+          "has neither power_W nor a speed that rises with the wind: which rows of blade_pitch_deg are below rated power?");
   } catch (const scene::SceneError& e) { doc.problem("control.file", e.what()); }
 }
 

@@ -27,13 +27,13 @@ std::optional<double> Operation::torque_gain() const {
 }
 
 std::size_t Operation::first_above(double share) const {
-  if (power.empty()) return wind.size();
-  const double least = share * *std::max_element(power.begin(), power.end());
-  return std::size_t(std::find_if(power.begin(), power.end(), [&](double p) { return p > least; }) - power.begin());
+  const std::vector<double>& rises = power.empty() ? speed : power;
+  const double least = share * std::ranges::max(rises);
+  return std::size_t(std::ranges::find_if(rises, [&](double value) { return value > least; }) - rises.begin());
 }
 
 Operation Operation::below_rated() const {
-  constexpr double rated_share = 0.995;  // of the largest power: rows above it are rated but for the table's round-off
+  constexpr double rated_share = 0.995;  // of the largest: rows above it are rated but for the table's round-off
   Operation below;
   for (std::size_t i = 0, rows = first_above(rated_share); i < rows; ++i) {
     below.wind.push_back(wind[i]), below.speed.push_back(speed[i]);

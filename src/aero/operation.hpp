@@ -27,9 +27,10 @@ struct Operation {
   /// K of the torque law Q = K omega^2 [N m s2/rad2] that holds the table's own tip-speed ratio: mean of P / omega^3 over the
   /// rows between the least and the rated speed; nothing where there are none.
   std::optional<double> torque_gain() const;
-  /// The first row whose power is above this share of the largest; the number of rows where none is, or without powers.
+  /// The first row whose power is above this share of the largest, without powers whose speed is; the number of rows where none.
   std::size_t first_above(double share) const;
-  /// The rows below rated power: what the blades are pitched to where power is not limited. Of the last of them above it.
+  /// The rows below rated power, without powers below rated speed: what the blades are pitched to where power is not limited.
+  /// Of the last of them above it.
   Operation below_rated() const;
 };
 

@@ -426,6 +426,14 @@ def checked(scene, settings=()):
 
 
 class Checks(unittest.TestCase):
+    def test_a_table_that_does_not_tell_where_rated_power_begins_is_refused_with_a_controller(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder, "operation.csv")
+            table.write_text("wind_m_s,speed_rpm,blade_pitch_deg\n4,9.6,0\n25,9.6,20\n", encoding="utf-8")
+            code, _, errors = checked("leble_barakos/case3_controlled.toml", (f"rotor.operation={table}",))
+        self.assertEqual(code, 2)
+        self.assertIn("has neither power_W nor a speed that rises with the wind", errors)
+
     def test_every_scene_of_inputs_passes_check(self):
         parts = {"platform.toml", "paper_tank.toml", "tower_passage.toml", "half_size_turbine.toml", "steps.toml", "expected.toml"}
         files = [file.relative_to(ROOT / "inputs") for file in sorted((ROOT / "inputs").rglob("*.toml"))]

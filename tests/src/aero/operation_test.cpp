@@ -39,3 +39,10 @@ TEST_CASE("the DTU turbine's table of 2013 wants a torque gain of 1.22e7 N m s2 
   CHECK(table.at(20.0).pitch == Approx(17.618 * radians_per_degree));
   CHECK(table.below_rated().wind.back() == 11.0);
 }
+
+TEST_CASE("a table without powers has rated power where its speed first is the greatest", "[aero][fast]") {
+  const Operation table{{6.0, 8.0, 9.0, 12.0, 20.0}, {2.1, 2.8, 3.14, 3.14, 3.14}, {0.0, 0.0, 0.0, 0.16, 0.35}, {}};
+  CHECK(table.below_rated().wind == std::vector{6.0, 8.0});
+  CHECK(table.below_rated().pitch.back() == 0.0);
+  CHECK(Operation{{6.0, 20.0}, {3.14, 3.14}, {0.0, 0.35}, {}}.below_rated().wind.empty());
+}
