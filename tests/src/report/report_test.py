@@ -650,6 +650,22 @@ class PartsTest(unittest.TestCase):
             run = RunData(pathlib.Path(folder))
             self.assertEqual([n for n in table if figures.is_nothing(run, n)], ["float.x_m", "float.pitch_deg", "float.sea.fx_N", "float.sea.my_N_m"])
 
+    def test_energy_that_steps_make_is_held_against_what_moves_not_against_weight_and_buoyancy(self):
+        t = np.linspace(0.0, 20.0, 201)
+        swing, left = np.sin(t) ** 2, 1.0 - 0.3 * t / 20.0   # a free heave that loses 30 % of its energy to the steps
+        heave = {"time_s": t, "energy.kinetic_J": 1e6 * left * swing, "energy.steps_J": 1e6 * (left - 1.0), "energy.gravity.work_J": 4e7 * np.cos(t),
+                 "energy.sea.work_J": 1e6 * (swing * left - left + 1.0) - 4e7 * np.cos(t)}
+        zero = 0.0 * t
+        tumbling = {"time_s": t, "energy.kinetic_J": 4.0 + zero, "energy.steps_J": 4e-7 + zero, "energy.gravity.work_J": zero}
+        resting = {"time_s": t, "energy.kinetic_J": 1e-20 + zero, "energy.steps_J": -1e-9 + zero, "energy.gravity.work_J": 1e4 * t, "energy.sea.work_J": -1e4 * t}
+        for table, level, text in ((heave, "warn", "try a smaller"), (heave | {"energy.steps_J": 1e-3 * heave["energy.steps_J"]}, "good", "0.03"),
+                                   (tumbling, "good", "% of the largest kinetic energy"), (resting, "good", "round-off")):
+            with self.subTest(text), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="", log="")
+                found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Energy"]
+                self.assertEqual(found.level, level, found.text)
+                self.assertIn(text, found.text)
+
     def test_health_closes_the_balance_of_the_water(self):
         t = np.linspace(0.0, 10.0, 101)
         zero = 0.0 * t
