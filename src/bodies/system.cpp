@@ -569,9 +569,8 @@ std::string System::describe(const StepReport& r) const {
     case Trouble::mass:
       return "mass plus added mass is not positive definite";
     case Trouble::stiff:
-      return "bodies: the step is beyond the " + fmt::format("{:.3g}", r.value) +
-             " s or so that the stiffest load or the fastest turn allows now (a line that snapped taut, water met at speed, a "
-             "swing on a short arm); try a smaller time.step_s";
+      return fmt::format(
+          "bodies: loads or turns change faster than the step follows, {:.3g} s or so would: try a smaller time.step_s", r.value);
     case Trouble::energy:
       if (integrator() == Integrator::explicit_euler)
         return "bodies: explicit_euler has made " + fmt::format("{:.3g}", r.value) +

@@ -289,6 +289,25 @@ void doubt_fine_step(scene::Doubts& doubts, const FloatingSystem& floating, cons
        fmt::format("up to {:g} steps to it: 50 to 1000 do", most), "the cost goes with their number; look at its unit: s"});
 }
 
+/// Steps that are stable and yet follow no swing of the bodies. Beams have stiff ones that hardly move.
+void doubt_coarse_step(scene::Doubts& doubts, const FloatingSystem& floating, const Stability& stability) {
+  constexpr double least = 10.0, light = 0.3;  // steps to a swing, as docs/user/choosing.md has it; damping of critical
+  const Scenario& s = floating.scenario();
+  if (floating.particle_plan()) return;
+  const auto of_a_beam = [&](const std::string& name) {
+    return std::ranges::any_of(s.beams, [&](const auto& beam) { return name.ends_with(" of " + beam.name); });
+  };
+  for (const bodies::Mode& mode : stability.linearisation.modes) {  // fastest first
+    if (mode.eigenvalue.imag() <= 1e-6 || mode.damping_ratio() > light || of_a_beam(mode.name)) continue;
+    if (s.time.step() > mode.period_s() / least)
+      doubts.push_back({"time.step_s",
+                        fmt::format("{:.4g} s where {} has a period of {:.4g} s", s.time.step(), mode.name, mode.period_s()),
+                        fmt::format("up to {:.3g} s, {:g} steps to a period", mode.period_s() / least, least),
+                        "longer steps damp it by themselves and change its period"});
+    return;
+  }
+}
+
 /// A body without shapes on the end of a tower is near that end: nacelles reach some 15 m from towers of 100 m.
 void doubt_tower_head(scene::Doubts& doubts, const Scenario& s) {
   constexpr double most = 0.3;
@@ -711,6 +730,7 @@ scene::Doubts doubts(FloatingSystem& floating, const Start& start, const Stabili
   });
   doubt_length(all, floating, stability);
   doubt_fine_step(all, floating, stability);
+  doubt_coarse_step(all, floating, stability);
   doubt_window(all, floating, stability);
   return all;
 }

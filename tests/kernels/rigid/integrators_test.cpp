@@ -101,6 +101,18 @@ TEST_CASE("rk4 sees how stiff what moves is, and loads that set in within a step
     REQUIRE(step(Integrator::rk4, oscillator, 0.0, h, u, work));
     CHECK(work.stiffness == Approx(0.25 * z * z));
   }
+  // It passes its rest smoothly: no onset, unless the step is a sixth of its period.
+  for (const double z : {0.3, 0.6, 1.2}) {
+    Eigen::VectorXd u = Eigen::VectorXd::Ones(1);
+    const auto oscillator = [&](double, const Eigen::VectorXd& x, const Eigen::VectorXd& w, Eigen::VectorXd& x_rate,
+                                Eigen::VectorXd& u_rate) {
+      x_rate = w;
+      u_rate = -z * z / (h * h) * x;
+      return true;
+    };
+    REQUIRE(step(Integrator::rk4, oscillator, 0.0, h, u, work));
+    CHECK(work.onset == Approx(0.25 * std::pow(z, 4)));
+  }
   // A line that is slack at the start and taut within the step.
   Eigen::VectorXd u(1);
   u[0] = 3.0;
