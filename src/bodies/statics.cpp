@@ -105,14 +105,18 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
 
     const dense::SymmetricEigenpairs symmetric = dense::symmetric_eigenpairs(0.5 * (b.stiffness + b.stiffness.transpose()));
     const double softest = symmetric.values[0];
-    const bool unstable = softest < -options.free_fraction * stiffest;
+    const bool indefinite = softest < -options.free_fraction * stiffest;
     const Eigen::VectorXd balance = stiff.transpose() * b.force;
     result.residual = b.all_loads > 0.0 ? balance.norm() / b.all_loads : 0.0;
     // Newton, least norm over the stiff directions; where the stiffness is not positive, shifted until it is.
     Eigen::VectorXd y = svd.right.leftCols(rank) * balance.cwiseQuotient(svd.values.head(rank));
     const double newton_size = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y).cwiseAbs().maxCoeff();
     if (rank == 0 || newton_size <= options.step_tolerance) {
-      result.unstable = unstable ? name(symmetric.vectors.col(0)) : "";
+      // Not by the symmetric part, which a moment fixed in space makes indefinite on a heeled float that stays.
+      const dense::Eigenpairs pairs = dense::eigenpairs(b.stiffness);
+      Eigen::Index least;
+      if (pairs.values.real().minCoeff(&least) < -options.free_fraction * stiffest)
+        result.unstable = name(pairs.vectors.col(least).real());
       for (Eigen::Index k = rank; k < n; ++k)
         if (std::abs(svd.left.col(k).dot(b.force)) > options.load_tolerance * b.all_loads)
           result.problem = "statics: no equilibrium: " + name(svd.right.col(k)) + " has no stiffness and carries a load";
@@ -124,13 +128,13 @@ Equilibrium find_equilibrium(System& system, const BodiesState& start, double t_
                        fmt::format("{:.3g}", newton_size) + ", mostly " + name(y);
       return result;
     }
-    if (unstable) {
+    if (indefinite) {
       const Eigen::MatrixXd shifted = b.stiffness - 2.0 * softest * Eigen::MatrixXd::Identity(n, n);
       y = dense::solve(shifted, stiff * balance);
     }
     Eigen::VectorXd x = b.cholesky.transpose().triangularView<Eigen::Upper>().solve(y);
     x *= std::min(1.0, 1.0 / largest_way(system, x, options));
-    if (!unstable) {
+    if (!indefinite) {
       const double now = balance.cwiseQuotient(svd.values.head(rank)).norm();
       for (int halving = 0; halving < 6 && correction_left(system, t_s, x, b, svd, rank) > now; ++halving) x *= 0.5;
     }

@@ -68,6 +68,22 @@ TEST_CASE("an unstable equilibrium is named, a body that falls for ever refused"
   CHECK_THAT(find_equilibrium(falling, start(falling), 0.0).problem, Contains("heave of bob"));
 }
 
+TEST_CASE("a round float that a constant moment heels is not unstable: it neither stays nor goes in yaw", "[bodies][fast]") {
+  const std::vector<Body> bodies{body("float", 2.0, {3.0, 3.0, 3.0}, {0, 0, 0})};
+  const LoadSource rights{"rights",
+                          [](double, std::span<const Motion> m, std::span<Wrench> w) {
+                            w[0].add_force(-100.0 * m[0].position, m[0].position);
+                            w[0].add_moment(100.0 * (m[0].attitude * Vector3d::UnitZ()).cross(Vector3d::UnitZ()));
+                            w[0].add_moment({0, 50.0, 0});
+                          },
+                          {}};
+  System system(bodies, {}, {rights});
+  const Equilibrium rest = find_equilibrium(system, start(system), 0.0);
+  REQUIRE(rest.problem == "");
+  CHECK(euler_angles(rest.state.motions[0].attitude).y() == Approx(pi / 6.0));
+  CHECK(rest.unstable == "");
+}
+
 TEST_CASE("rest a hundred metres away takes some forty iterations, with a stiff part that turns along", "[bodies][fast]") {
   // A rod on a soft spring under a side force; a second body on it by a spring a million times as stiff, as a tower's pull.
   const std::vector<Body> bodies{body("hull", 1e6, {1e9, 1e9, 1e9}, {0, 0, -50}), body("top", 1e5, {1e7, 1e7, 1e7}, {0, 0, 50})};
