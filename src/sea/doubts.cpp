@@ -367,11 +367,11 @@ std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOpti
         fmt::format("{:.2g} particles to the height of the waves, {:.4g} m: too coarse to show them; "
                     "sea.particles.spacing_m below {:.3g} m makes it {:g}",
                     n, waves.height_m, waves.height_m / to_height, to_height));
-    // docs/verification/sea.md: 8, 4 and 1.5 % at 0.75, 1.5 and 2.5 particles to the height.
+    // docs/verification/sea.md: 8, 4 and 1.5 % at 0.75, 1.5 and 2.5 particles to the height, between walls 3.7 % at 3.2.
     if (sea.starts_in_waves() && !sea.led_to_waves())
       notes.push_back(
-          fmt::format("waves left alone with {:.2g} particles to their height lose some {:.1g} % of it in each period; "
-                      "[[sea.damping_zones]] with towards = \"waves\" keep it",
+          fmt::format("waves left alone with {:.2g} particles to their height lose some {:.1g} % of it in each period, between "
+                      "walls up to twice that; [[sea.damping_zones]] with towards = \"waves\" keep it",
                       n, 6.0 / n));
   }
   if (const double n = draft / spacing; draft > 0.0 && n < to_draft)

@@ -598,7 +598,7 @@ model = "morison"
         self.assertIn("blade elements", alone)
         coarse = checked("leble_barakos/case3_demo.toml")[1]
         self.assertIn("note: 0.75 particles to the height of the waves, 1.88 m", coarse)
-        left = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period"
+        left = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period, between walls up to twice that"
         self.assertNotIn(left, coarse)
         self.assertIn(left, checked("leble_barakos/case3_demo.toml", settings=('without=["sea.damping_zones"]',))[1])
 
