@@ -101,8 +101,8 @@ std::string identity_of(const std::string& echo, const scene::FileRecord& read, 
 /// `forecasts`: with its forecast, for which the floating system is made; the replicas of a rung have that of the first.
 Checked checked(const std::string& file, const std::vector<std::string>& overrides, const scene::Source& overrider,
                 bool forecasts, Digests& digests) {
-  const scene::FileRecord read;
   scene::Document document = scene::load(file, overrides, overrider);
+  const scene::FileRecord read;
   const coupling::Scenario scenario = coupling::read_scenario(document);
   const std::string identity = identity_of(document.echo(), read, digests);
   if (!forecasts) return {identity, {}, {}};

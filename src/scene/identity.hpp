@@ -10,8 +10,9 @@
 
 namespace spindrift::scene {
 
-/// Notes the files that sections name (Section::path) while it lives, those in files of files too. States that a run starts from
-/// (*.h5) stand apart: a restart of that run has no need of them.
+/// Notes the files that sections name (Section::path) and the bases that are read while it lives, those in files of files too.
+/// A scene is loaded before: its echo has what its own bases say. States that a run starts from (*.h5) stand apart: a restart of
+/// that run has no need of them.
 class FileRecord {
  public:
   FileRecord();

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "src/scene/identity.hpp"
 #include "src/scene/toml_reader.hpp"
 
 namespace spindrift::scene {
@@ -60,6 +61,7 @@ class FileReader {
       stop(layers_, *named_by, fmt::format("the base files form a cycle: {} -> {}", joined(names, " -> "), names.front()));
     }
     chain_.push_back(canonical);
+    if (named_by) FileRecord::note(canonical);
     Value value = this->text(*text, name, fs::absolute(path).parent_path().string());
     chain_.pop_back();
     return value;

@@ -71,6 +71,17 @@ class Identity(Runs):
         self.run_case("--restart", "--until", 1.4, "--set", "wind.speed_m_s=12.0", "--allow-change", "wind.speed_m_s", scene=scene)
         self.run_case("--restart", "--until", 1.5, "--set", "wind.speed_m_s=12.0", scene=scene)  # it is that run now
 
+    def test_a_changed_base_of_a_file_is_refused_by_name(self):
+        for name in ("leble_barakos", "turbines"):
+            shutil.copytree(ROOT / "inputs" / name, self.path / name)
+        scene, base = self.path / "leble_barakos/case3_engineering.toml", self.path / "turbines/dtu_10mw.toml"
+        (self.path / "turbines/mine.toml").write_text('base = "dtu_10mw.toml"\n')
+        mine = ("--set", f'rotor.turbine="{self.path}/turbines/mine.toml"')
+        self.run_case("--until", 1.0, *mine, scene=scene)
+        base.write_text(base.read_text() + "# a remark\n")
+        self.assertIn(f"{base}: was", self.run_case("--restart", "--until", 1.1, *mine, scene=scene, code=2))
+        self.run_case("--restart", "--until", 1.1, "--allow-change", base, *mine, scene=scene)
+
     def test_end_output_and_checkpoints_may_change(self):
         self.run_case("--until", 1.0)
         self.run_case("--restart", "--set", "time.end_s=2.0", "--set", "output.means_over_s=1.0", "--set", "checkpoint.keep=5", "--set", "runtime.wall_limit_s=100.0")

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "src/scene/document.hpp"
 #include "tests/src/scene/example_sections.hpp"
 #include "tests/src/scene/temporary.hpp"
 
@@ -49,6 +50,17 @@ TEST_CASE("what may change is given by key, by section, and not by part of a nam
   CHECK(changed(before, {with("4.0", "5.0"), {}}, {"bodies.a.cylinders"}).empty());
   CHECK((names_part_of(before, "time.end_s") && names_part_of(before, "time") && names_part_of(before, "bodies.a.cylinders")));
   CHECK_FALSE((names_part_of(before, "tim") || names_part_of(before, "time.end") || names_part_of(before, "time.end_s.x")));
+}
+
+TEST_CASE("bases of the files that a scene names are among its files, its own bases are not", "[scene][fast]") {
+  const Temporary dir;
+  const std::string turbine = dir.file("turbine.toml", "[time]\nend_s = 1.0\n"),
+                    mine = dir.file("parts/mine.toml", "base = \"../turbine.toml\"\n");
+  load(mine);
+  const FileRecord read;
+  CHECK(read.files().empty());
+  load(mine);
+  CHECK(read.files() == std::vector<std::string>{std::filesystem::canonical(turbine).string()});
 }
 
 TEST_CASE("files count by what is in them, wherever they are", "[scene][fast]") {
