@@ -157,9 +157,9 @@ def resting_parameter(resting, across, length):
 class Blades:
     """Surface of one upright blade in the rotor's frame (x downwind along the axis, z up), from the turbine's tables."""
 
-    def __init__(self, turbine, path, pitch_deg):
-        table = columns(path.parent / turbine["planform"])
-        outlines = sorted(((a["thickness_pct"], outline(columns(path.parent / a["file"]))) for a in turbine.get("aerofoils", [])), key=lambda entry: entry[0])
+    def __init__(self, turbine, pitch_deg):
+        table = columns(pathlib.Path(turbine["planform"]))
+        outlines = sorted(((a["thickness_pct"], outline(columns(pathlib.Path(a["file"])))) for a in turbine.get("aerofoils", [])), key=lambda entry: entry[0])
         self.count, self.tip = turbine.get("blades", 3), table["span_m"][-1]
         cone, pitch, sections = math.radians(turbine.get("precone_deg", 0.0)), math.radians(pitch_deg), []
         prebend, sweep = (table.get(name, [0.0] * len(table["span_m"])) for name in ("prebend_m", "sweep_m"))
@@ -213,7 +213,7 @@ def outline_up(y):
 
 def columns(path):
     """{name: values} of a CSV file with comments."""
-    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
     return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
@@ -269,9 +269,9 @@ class Rotor:
         return begin + (self.hub(t) - begin) @ along * along, upright(along)
 
     def _blades(self):
-        turbine, path = self.scene.run.turbine(self.given)
+        turbine = self.scene.run.turbine(self.given)
         try:
-            return Blades(turbine, path, self.given.get("blade_pitch_deg", 0.0)) if turbine else None
+            return Blades(turbine, self.given.get("blade_pitch_deg", 0.0)) if turbine else None
         except (OSError, KeyError, ValueError, IndexError):
             return None
 

@@ -1,8 +1,6 @@
 """Pictures of a resolved rotor: pressure on a blade, the wind through and behind the rotor.
 From the newest fields/air_*.h5 and walls_*.h5; h5py is needed. Called by page.py; tested in tests/src/report.
 SPDX-License-Identifier: Apache-2.0"""
-import pathlib
-import tomllib
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -32,16 +30,8 @@ class Rotor:
         self.density = run.scene.get("environment", {}).get("air_density_kg_m3", 1.225)
         self.temperature = run.scene.get("aero", {}).get("flow", {}).get("temperature_K", 288.15)
         self.tip = max(np.linalg.norm(self.local(wall["points"])[..., 1:], axis=-1).max() for wall in walls)
-        self.copies = self.blades(run, scene) if run.scene["aero"]["grid"].get("sectors") == "one" else 1
-
-    @staticmethod
-    def blades(run, scene):
-        """Of the turbine file; 1, so that one sector is drawn alone, where that is gone."""
-        try:
-            with open(pathlib.Path(run.folder) / scene["turbine"], "rb") as file:
-                return tomllib.load(file)["turbine"]["blades"]
-        except (OSError, KeyError, tomllib.TOMLDecodeError):
-            return 1
+        # Without a turbine file one sector is drawn alone.
+        self.copies = run.turbine(scene).get("blades", 1) if run.scene["aero"]["grid"].get("sectors") == "one" else 1
 
     def local(self, points):
         return (points - self.hub) @ self.frame.T

@@ -1,5 +1,6 @@
 """One run directory, read: scene, history, summary, log, trace. What is missing or broken is said in `notes`, never an error.
 Called by spindrift_report.py; tested in tests/src/report. SPDX-License-Identifier: Apache-2.0"""
+import functools
 import gzip
 import json
 import pathlib
@@ -14,6 +15,35 @@ import quantities
 CHUNK_BYTES = 64 << 20
 TRACE_LIMIT_BYTES = 200 << 20
 SILENT = ("output.", "checkpoint.", "runtime.", "time.end_s", "sea.fields.", "coupling.placement", "coupling.air_ranks")   # keys that change no result
+
+
+def with_bases(path):
+    """A turbine file's tables with those of the files that its `base` names; what names a file in them is a path."""
+    def taken(key):
+        given = found.pop(key, [])
+        return [given] if isinstance(given, str) else given
+
+    found, whole = tomllib.loads(path.read_text(encoding="utf-8-sig")), {}
+    for base in taken("base"):
+        _overlay(whole, with_bases(path.parent / base))
+    for key in taken("without"):
+        *tables, last = key.split(".")
+        functools.reduce(dict.__getitem__, tables, whole).pop(last)
+    return _overlay(whole, _placed(found, path.parent))
+
+
+def _overlay(under, over):
+    for key, value in over.items():
+        under[key] = _overlay(under[key], value) if isinstance(value, dict) and isinstance(under.get(key), dict) else value
+    return under
+
+
+def _placed(value, folder, key=""):
+    if isinstance(value, dict):
+        return {name: _placed(inner, folder, name) for name, inner in value.items()}
+    if isinstance(value, list):
+        return [_placed(inner, folder) for inner in value]
+    return str(folder / value) if key in ("file", "operation", "planform") and value else value
 
 
 class RunData:
@@ -107,25 +137,24 @@ class RunData:
         return self.folder / name if isinstance(name, str) and name else None
 
     def turbine(self, rotor=None):
-        """Of a rotor's section, without one of the first: the turbine file's [turbine], {} where there is none or it is gone; its path."""
-        path = self._named_by_rotor("turbine", rotor)
+        """Of a rotor's section, without one of the first: the [turbine] of the turbine file and its bases, {} where there is none or it is gone."""
         try:
-            return tomllib.loads(path.read_text(encoding="utf-8"))["turbine"], path
-        except (AttributeError, OSError, KeyError, tomllib.TOMLDecodeError):
-            return {}, path
+            return with_bases(self._named_by_rotor("turbine", rotor))["turbine"]
+        except (AttributeError, OSError, KeyError, TypeError, ValueError, RecursionError):
+            return {}
 
     def blades(self, rotor=None):
         """Of a rotor's section, without one of the first."""
-        found = self.turbine(rotor)[0].get("blades", 3)
+        found = self.turbine(rotor).get("blades", 3)
         return found if isinstance(found, int) else 3
 
     def operation(self, rotor=None):
         """{column: values} of the turbine's steady operation, None where neither scene nor turbine file names one."""
         path = self._named_by_rotor("operation", rotor)
-        if path is None and isinstance(named := self.turbine(rotor)[0].get("operation"), str) and named:   # relative to the turbine file
-            path = self.turbine(rotor)[1].parent / named
+        if path is None and isinstance(named := self.turbine(rotor).get("operation"), str) and named:
+            path = pathlib.Path(named)
         try:
-            rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines() if line.strip() and not line.startswith("#")]
+            rows = [line.split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
             return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
         except (AttributeError, OSError, ValueError, IndexError):
             return None

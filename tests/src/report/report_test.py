@@ -587,6 +587,13 @@ class PartsTest(unittest.TestCase):
             found = {c.title: c for c in verdict.health(RunData(folder / "run"))}["Power"]
             self.assertEqual(found.level, "warn")
             self.assertIn("the turbine's table has 5.00 MW at 10 m/s, rated 8.00 MW", found.text)
+            (folder / "turbines/own.toml").rename(folder / "turbines/base.toml")
+            (folder / "mine.toml").write_text('base = "turbines/base.toml"\n[turbine]\nblades = 2\nplanform = "mine.csv"\n', encoding="utf-8-sig")
+            (folder / "turbines/own.toml").write_text('base = "../mine.toml"\nwithout = "turbine.planform"\n')
+            run = RunData(folder / "run")
+            self.assertEqual(run.turbine(), {"blades": 2, "operation": str(folder / "run/../turbines/../turbines/own.csv")})
+            self.assertEqual(run.blades(), 2)
+            self.assertEqual({c.title: c for c in verdict.health(run)}["Power"].text, found.text)
 
             def power(more, wind=10.0):
                 hub = {"rotor.wind_x_m_s": np.where(t < 20.0, 10.0, wind * 0.8), "rotor.wind_y_m_s": np.where(t < 20.0, 0.0, wind * 0.6)}
