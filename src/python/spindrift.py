@@ -41,14 +41,14 @@ class Run:
         path = self.directory / "history.csv"
         if not path.exists():
             raise FileNotFoundError(f"{self.directory} is not a run directory: it has no history.csv")
-        with builtins.open(path, encoding="utf-8") as file:
+        with builtins.open(path, encoding="utf-8-sig") as file:
             self.columns = file.readline().strip().split(",")
             lines = [line for line in file if line.endswith("\n") and line.count(",") == len(self.columns) - 1]   # the last one may be half written
         values = np.array([line.split(",") for line in lines], dtype=float).reshape(-1, len(self.columns))
         self._values = dict(zip(self.columns, values.T))
         self.summary = self._json("summary.json")
         scene = self.directory / "scene.toml"
-        self.scene = tomllib.loads(scene.read_text(encoding="utf-8")) if scene.exists() else {}
+        self.scene = tomllib.loads(scene.read_text(encoding="utf-8-sig")) if scene.exists() else {}
         self.units = {c["name"]: c.get("unit", "") for c in self.summary.get("columns", [])}
         self.meanings = {c["name"]: c.get("meaning", "") for c in self.summary.get("columns", [])}
 

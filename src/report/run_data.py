@@ -161,7 +161,7 @@ class RunData:
 
     def _text(self, name):
         try:
-            return (self.folder / name).read_text(encoding="utf-8", errors="replace")
+            return (self.folder / name).read_text(encoding="utf-8-sig", errors="replace")
         except FileNotFoundError:
             return ""
         except OSError as error:
@@ -193,12 +193,12 @@ class RunData:
             self.notes.append("history.csv is missing: there is nothing to plot")
             return [], np.empty((0, 0))
         with open(path, "rb") as file:
-            names = file.readline().decode("utf-8", errors="replace").strip().split(",")
+            names = file.readline().decode("utf-8-sig", errors="replace").strip().split(",")
             blocks, rest = [], b""
             while chunk := file.read(CHUNK_BYTES):
                 text, newline, rest = (rest + chunk).rpartition(b"\n")  # a half-written last line stays behind
                 if newline:
-                    blocks.append(self._rows(text, len(names)))
+                    blocks.append(self._rows(text.rstrip(b"\r").replace(b"\r\n", b"\n"), len(names)))
         rows = np.concatenate(blocks) if blocks else np.empty((0, len(names)))
         return (names, rows.T) if names != [""] else ([], np.empty((0, 0)))
 

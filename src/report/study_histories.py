@@ -6,7 +6,7 @@ import numpy as np
 
 class History:
     def __init__(self, path):
-        with open(path, encoding="utf-8") as file:
+        with open(path, encoding="utf-8-sig") as file:
             header = next(line for line in file if line.split("#")[0].strip())
             self.names = [name.strip() for name in header.split("#")[0].split(",")]
             self.rows = np.loadtxt(file, delimiter=",", ndmin=2)

@@ -21,6 +21,7 @@ import html_page
 import page
 import picture
 import quantities
+import study_histories
 import study_page
 import synthetic_run
 import verdict
@@ -209,6 +210,17 @@ source = "Bak et al. 2013"
         with self.subTest("summary of another shape"):
             (self.folder / "none/summary.json").write_text('{"parts": [1], "efficiency": ["x"], "columns": [3], "ranges": {"a": 1}}')
             self.page("none")
+
+    def test_a_history_and_a_scene_that_a_spreadsheet_or_an_editor_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            synthetic_run.write(folder, table={"time_s": np.arange(3.0), "float.x_m": np.arange(3.0)}, log="", scene="[wind]\nspeed_m_s = 10.0\n")
+            for name in ("history.csv", "scene.toml"):
+                (folder / name).write_text((folder / name).read_text(), encoding="utf-8-sig", newline="\r\n")
+            run, history = RunData(folder), study_histories.History(folder / "history.csv")
+            self.assertEqual((run.notes, run.columns, run.scene), ([], ["time_s", "float.x_m"], {"wind": {"speed_m_s": 10.0}}))
+            self.assertEqual(list(run.time), [0.0, 1.0, 2.0])
+            self.assertEqual(list(history("time_s")), [0.0, 1.0, 2.0])
 
     def test_columns_of_nan_only(self):
         t = 0.1 * np.arange(100)
