@@ -145,8 +145,11 @@ void Reader::path(const Parameter& p, const Value& value, const std::string& key
   namespace fs = std::filesystem;
   if (value.kind != Value::Kind::text || value.text.empty() || value.text.find('\0') != std::string::npos)
     return wrong(value, key, fmt::format("must be the name of a file{}", aside(p)));
-  const fs::path path = (fs::path(findings_.sources[std::size_t(value.where.source)].directory) / value.text).lexically_normal();
+  const fs::path given = fs::path(findings_.sources[std::size_t(value.where.source)].directory) / value.text;
+  fs::path path = given.lexically_normal();
   std::error_code error;
+  // Behind a link to a folder, ".." is the folder above the one that it leads to, as for bases.
+  if (!fs::equivalent(path, given, error)) path = fs::weakly_canonical(given.parent_path(), error) / given.filename();
   if (!fs::exists(path, error)) return wrong(value, key, fmt::format("{}: {}{}", path.string(), absent_file(path), aside(p)));
   if (fs::is_directory(path, error))
     return wrong(value, key, fmt::format("is a directory, not a file: {}{}", path.string(), aside(p)));

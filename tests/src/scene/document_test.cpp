@@ -272,3 +272,18 @@ TEST_CASE("a default that follows from the rest of the scene counts where the sc
   wrong.read(example::time_section());
   CHECK_THROWS_WITH(wrong.finish(), Catch::Contains("s.toml:1: time") && !Catch::Contains("window_s"));
 }
+
+TEST_CASE("a file beside the folder of a scene is found through a link to that folder, as a base is", "[scene][fast]") {
+  const Temporary dir;
+  const std::string right = dir.file("real/table.csv", "right");
+  dir.file("table.csv", "wrong"), dir.file("real/base.toml", "[time]\nend_s = 1.0\n");
+  dir.file("real/scenes/scene.toml", "base = \"../base.toml\"\n[sea]\ntable = \"../table.csv\"\n");
+  std::filesystem::create_directory_symlink(dir.path() + "/real/scenes", dir.path() + "/link");
+  Document linked = load(dir.path() + "/link/scene.toml");
+  CHECK(linked.read(example::time_section()).end_s == 1.0);
+  CHECK(linked.read(example::sea_section()).table == std::filesystem::canonical(right).string());
+  std::filesystem::remove(right);
+  Document gone = load(dir.path() + "/link/scene.toml");
+  gone.read(example::sea_section());
+  CHECK_THROWS_WITH(gone.finish(), Catch::Matchers::Contains("real/table.csv: no such file"));
+}
