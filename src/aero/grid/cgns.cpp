@@ -72,17 +72,14 @@ class CgnsReader {
   CgnsReader(const std::filesystem::path& path, double width) : path_(path), file_(path, CG_MODE_READ), width_(width) {}
 
   MultiBlockGrid run() {
-    int bases = 0;
-    call(cg_nbases(file_.number(), &bases), "counting bases");
-    if (bases < 1) refuse(path_, "has no base");
+    const int zones = find_base();
     Name name{};
-    int physical = 0, zones = 0;
-    call(cg_base_read(file_.number(), base, name, &dimensions_, &physical), "reading the base");
+    int physical = 0;
+    call(cg_base_read(file_.number(), base_, name, &dimensions_, &physical), "reading the base");
     if (dimensions_ != physical || dimensions_ < 2)
       refuse(path_, fmt::format("base \"{}\" has cells of dimension {} in {} dimensions: 3 in 3 or 2 in 2 are read", name,
                                 dimensions_, physical));
     grid_.planar = dimensions_ == 2;
-    call(cg_nzones(file_.number(), base, &zones), "counting zones");
     for (int z = 1; z <= zones; ++z) nodes(z);
     for (int z = 1; z <= zones; ++z) connections(z), boundaries(z);
     if (grid_.connections.empty() && grid_.boundaries.empty()) connect_by_coordinates(grid_);
@@ -93,12 +90,61 @@ class CgnsReader {
  private:
   void call(int status, const std::string& doing) const { file_.check(status, doing); }
 
+  /// The one base with zones, else the first; how many these are.
+  int find_base() {
+    int bases = 0, zones = 0;
+    call(cg_nbases(file_.number(), &bases), "counting bases");
+    if (bases < 1) refuse(path_, "has no base");
+    for (int b = 1; b <= bases; ++b) {
+      int more = 0;
+      call(cg_nzones(file_.number(), b, &more), "counting zones");
+      if (zones > 0 && more > 0) refuse(path_, "has more than one base with zones: put one alone into a file");
+      if (more > 0) base_ = b, zones = more;
+    }
+    return zones;
+  }
+
+  /// The unit of a coordinate [m]: the one stated nearest to it, else the metre.
+  double unit_of(int zone, const char* coordinate) const {
+    LengthUnits_t unit = Meter;
+    const auto look = [&](int went) {
+      MassUnits_t mass;
+      LengthUnits_t length;
+      TimeUnits_t time;
+      TemperatureUnits_t temperature;
+      AngleUnits_t angle;
+      if (went == CG_OK && cg_units_read(&mass, &length, &time, &temperature, &angle) == CG_OK && length != LengthUnitsNull)
+        unit = length;
+    };
+    look(cg_goto(file_.number(), base_, "end"));
+    look(cg_goto(file_.number(), base_, "Zone_t", zone, "end"));
+    look(cg_goto(file_.number(), base_, "Zone_t", zone, "GridCoordinates_t", 1, "end"));
+    look(cg_goto(file_.number(), base_, "Zone_t", zone, "GridCoordinates_t", 1, coordinate, 0, "end"));
+    switch (unit) {
+      case Meter:
+        return 1.0;
+      case Centimeter:
+        return 1e-2;
+      case Millimeter:
+        return 1e-3;
+      case Foot:
+        return 0.3048;
+      case Inch:
+        return 0.0254;
+      case LengthUnitsNull:
+      case LengthUnitsUserDefined:
+        break;
+    }
+    refuse(path_, fmt::format("{} of zone {} is in a unit of its own: metres, centimetres, millimetres, feet and inches are read",
+                              coordinate, zone));
+  }
+
   void nodes(int zone) {
     Name name{};
     cgsize_t size[9] = {};
     ZoneType_t type;
-    call(cg_zone_type(file_.number(), base, zone, &type), "reading a zone's type");
-    call(cg_zone_read(file_.number(), base, zone, name, size), "reading a zone");
+    call(cg_zone_type(file_.number(), base_, zone, &type), "reading a zone's type");
+    call(cg_zone_read(file_.number(), base_, zone, name, size), "reading a zone");
     if (type != Structured) refuse(path_, fmt::format("zone \"{}\" is not structured", name));
     Index n{2, 2, 2};
     for (int d = 0; d < dimensions_; ++d) n[d] = int(size[d]);
@@ -110,8 +156,10 @@ class CgnsReader {
     const cgsize_t first[3] = {1, 1, 1}, last[3] = {n[0], n[1], n[2]};
     for (int c = 0; c < dimensions_; ++c) {
       x[c].resize(count);
-      call(cg_coord_read(file_.number(), base, zone, coordinate_names[c], RealDouble, first, last, x[c].data()),
+      call(cg_coord_read(file_.number(), base_, zone, coordinate_names[c], RealDouble, first, last, x[c].data()),
            fmt::format("reading {} of zone \"{}\"", coordinate_names[c], name));
+      const double unit = unit_of(zone, coordinate_names[c]);
+      for (double& length : x[c]) length *= unit;
     }
     if (dimensions_ == 3) {
       for (std::size_t p = 0; p < count; ++p) block.nodes.push_back({x[0][p], x[1][p], x[2][p]});
@@ -146,12 +194,12 @@ class CgnsReader {
 
   void connections(int zone) {
     int count = 0;
-    call(cg_n1to1(file_.number(), base, zone, &count), "counting connections");
+    call(cg_n1to1(file_.number(), base_, zone, &count), "counting connections");
     for (int n = 1; n <= count; ++n) {
       Name name{}, donor{};
       cgsize_t range[6] = {}, donor_range[6] = {};
       int transform[3] = {1, 2, 3};
-      call(cg_1to1_read(file_.number(), base, zone, n, name, donor, range, donor_range, transform), "reading a connection");
+      call(cg_1to1_read(file_.number(), base_, zone, n, name, donor, range, donor_range, transform), "reading a connection");
       const std::string what = fmt::format("connection \"{}\"", name);
       const auto other = number_.find(donor);
       if (other == number_.end()) refuse(path_, fmt::format("{} names zone \"{}\", which is not there", what, donor));
@@ -177,7 +225,7 @@ class CgnsReader {
 
   void boundaries(int zone) {
     int count = 0;
-    call(cg_nbocos(file_.number(), base, zone, &count), "counting boundaries");
+    call(cg_nbocos(file_.number(), base_, zone, &count), "counting boundaries");
     for (int n = 1; n <= count; ++n) {
       Name name{}, family{};
       BCType_t type;
@@ -185,16 +233,16 @@ class CgnsReader {
       DataType_t normals;
       cgsize_t points = 0, normal_size = 0;
       int normal[3] = {}, data_sets = 0;
-      call(cg_boco_info(file_.number(), base, zone, n, name, &type, &set, &points, normal, &normal_size, &normals, &data_sets),
+      call(cg_boco_info(file_.number(), base_, zone, n, name, &type, &set, &points, normal, &normal_size, &normals, &data_sets),
            "reading a boundary");
       GridLocation_t location = Vertex;
-      cg_boco_gridlocation_read(file_.number(), base, zone, n, &location);
+      cg_boco_gridlocation_read(file_.number(), base_, zone, n, &location);
       if (set != PointRange || points != 2 || location != Vertex)
         refuse(path_, fmt::format("boundary \"{}\" is not given as a range of nodes", name));
       cgsize_t range[6] = {};
-      call(cg_boco_read(file_.number(), base, zone, n, range, nullptr), "reading a boundary's range");
+      call(cg_boco_read(file_.number(), base_, zone, n, range, nullptr), "reading a boundary's range");
       std::string patch = name;
-      if (type == FamilySpecified && cg_goto(file_.number(), base, "Zone_t", zone, "ZoneBC_t", 1, "BC_t", n, "end") == CG_OK &&
+      if (type == FamilySpecified && cg_goto(file_.number(), base_, "Zone_t", zone, "ZoneBC_t", 1, "BC_t", n, "end") == CG_OK &&
           cg_famname_read(family) == CG_OK)
         patch = family;
       grid_.boundaries.push_back({window(zone - 1, range, fmt::format("boundary \"{}\"", name)), patch});
@@ -204,7 +252,7 @@ class CgnsReader {
   const std::filesystem::path& path_;
   File file_;
   double width_;
-  int dimensions_ = 3;
+  int base_ = 1, dimensions_ = 3;
   MultiBlockGrid grid_;
   std::map<std::string, int> number_;
 };

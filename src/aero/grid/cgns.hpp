@@ -11,9 +11,10 @@ namespace spindrift::aero {
 
 bool cgns_available();
 
-/// The first base. A boundary's patch is its family, else its own name. Windows in neither a connection nor a boundary are joined
-/// where coordinates coincide only if the file has no connections at all. Periodic maps are found from the nodes (the file holds
-/// them in single precision). Throws scene::SceneError.
+/// The base that has zones; more than one is refused. Lengths are in the units of the file, metres where it states none. A
+/// boundary's patch is its family, else its own name. Windows in neither a connection nor a boundary are joined where coordinates
+/// coincide only if the file has no connections at all. Periodic maps are found from the nodes (the file holds them in single
+/// precision). Throws scene::SceneError.
 MultiBlockGrid read_cgns(const std::filesystem::path& file, double planar_width = 1.0);
 
 void write_cgns(const MultiBlockGrid& grid, const std::filesystem::path& file);

@@ -11,6 +11,10 @@
 #include "src/scene/error.hpp"
 #include "tests/src/aero/grid/examples.hpp"
 
+#ifdef SPINDRIFT_CGNS
+#include <cgnslib.h>
+#endif
+
 using namespace spindrift;
 using namespace spindrift::aero;
 
@@ -61,3 +65,41 @@ TEST_CASE("what is no CGNS file is refused by name", "[aero][grid][fast]") {
   CHECK_THROWS_AS(read_cgns(file.path), scene::SceneError);
   CHECK_THROWS_AS(read_cgns("/no/such/file.cgns"), scene::SceneError);
 }
+
+#ifdef SPINDRIFT_CGNS
+namespace {
+/// Changes a file by the library's own calls, beginning at its first base or a node below.
+template <class Change>
+void change(const ScratchFile& file, Change what) {
+  int number = 0;
+  REQUIRE(cg_open(file.path.c_str(), CG_MODE_MODIFY, &number) == CG_OK);
+  what(number);
+  REQUIRE(cg_close(number) == CG_OK);
+}
+void say_unit(LengthUnits_t unit) { REQUIRE(cg_units_write(Kilogram, unit, Second, Kelvin, Degree) == CG_OK); }
+}  // namespace
+
+TEST_CASE("a CGNS file's lengths are in the unit stated nearest to them", "[aero][grid][fast]") {
+  const ScratchFile file("units.cgns");
+  write_cgns(cartesian_box({.ni = 4, .nj = 4, .nk = 4, .high = {2, 2, 2}}), file.path);
+  const auto last = [&] { return read_cgns(file.path).blocks[0].nodes.back(); };
+  CHECK(last() == Eigen::Vector3d(2, 2, 2));
+  change(file, [](int f) { cg_goto(f, 1, "end"), say_unit(Millimeter); });
+  CHECK((last() - Eigen::Vector3d(2e-3, 2e-3, 2e-3)).norm() < 1e-15);
+  change(file, [](int f) { cg_goto(f, 1, "Zone_t", 1, "GridCoordinates_t", 1, "CoordinateY", 0, "end"), say_unit(Inch); });
+  CHECK((last() - Eigen::Vector3d(2e-3, 0.0508, 2e-3)).norm() < 1e-15);
+  change(file, [](int f) { cg_goto(f, 1, "Zone_t", 1, "end"), say_unit(LengthUnitsUserDefined); });
+  CHECK_THROWS_WITH(last(), Catch::Contains("CoordinateX of zone 1 is in a unit of its own"));
+}
+
+TEST_CASE("a CGNS file with zones in two bases is refused, an empty base is none", "[aero][grid][fast]") {
+  const ScratchFile file("bases.cgns");
+  write_cgns(cartesian_box({.ni = 4, .nj = 4, .nk = 4}), file.path);
+  int base = 0, zone = 0;
+  change(file, [&](int f) { cg_base_write(f, "Second", 3, 3, &base); });
+  CHECK(read_cgns(file.path).blocks.size() == 1);
+  const cgsize_t size[9] = {2, 2, 2, 1, 1, 1, 0, 0, 0};
+  change(file, [&](int f) { cg_zone_write(f, base, "more", size, Structured, &zone); });
+  CHECK_THROWS_WITH(read_cgns(file.path), Catch::Contains("more than one base with zones"));
+}
+#endif
