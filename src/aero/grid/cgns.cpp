@@ -314,14 +314,16 @@ void write_cgns(const MultiBlockGrid& grid, const std::filesystem::path& path) {
     const IndexMap map{c.orientation, {}};
     connect(c.from, c.to, map, ++n), connect(c.to, c.from, map.inverse(), ++n);
   }
-  std::vector<std::string> families;
+  std::map<std::string, std::string> families;  // of patches; names of at most 32 characters, each once
   for (const Boundary& b : grid.boundaries) {
     int id = 0;
-    const std::string family = fmt::format("{:.32}", b.patch);
-    if (std::find(families.begin(), families.end(), family) == families.end()) {
-      file.check(cg_family_write(file.number(), base, family.c_str(), &id), "writing a family");
-      families.push_back(family);
-    }
+    const auto taken = [&](const std::string& name) {
+      return std::ranges::any_of(families, [&](const auto& f) { return f.first != b.patch && f.second == name; });
+    };
+    const auto [known, added] = families.try_emplace(b.patch, fmt::format("{:.32}", b.patch));
+    std::string& family = known->second;
+    for (int k = 2; taken(family); ++k) family = fmt::format("{:.24}_{}", b.patch, k);
+    if (added) file.check(cg_family_write(file.number(), base, family.c_str(), &id), "writing a family");
     cgsize_t range[6] = {};
     write_range(grid, b.where, dimensions, range);
     file.check(cg_boco_write(file.number(), base, b.where.block + 1, fmt::format("boundary_{}", ++n).c_str(), FamilySpecified,

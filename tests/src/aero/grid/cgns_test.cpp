@@ -5,6 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
+#include <string>
 
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
@@ -57,6 +60,25 @@ TEST_CASE("a grid written as CGNS is the grid read", "[aero][grid][fast]") {
     return all;
   };
   CHECK(of(back) == of(grid));
+}
+
+TEST_CASE("patches whose names begin alike stay apart in a CGNS file", "[aero][grid][fast]") {
+  if (!cgns_available()) return;
+  const ScratchFile file("patches.cgns");
+  MultiBlockGrid grid = cartesian_box({.ni = 4, .nj = 4, .nk = 4});
+  REQUIRE(grid.boundaries.size() == 6);
+  const std::string long_name = "the_surface_of_the_main_wing_upper";  // 34 letters
+  const std::string names[] = {long_name, long_name + "_side", long_name.substr(0, 32), "tip", long_name, "tip"};
+  for (std::size_t b = 0; b < 6; ++b) grid.boundaries[b].patch = names[b];
+  write_cgns(grid, file.path);
+  std::map<std::string, std::set<std::string>> read;  // by patch as written
+  for (const Boundary& back : read_cgns(file.path).boundaries)
+    for (const Boundary& b : grid.boundaries)
+      if (b.where.side == back.where.side) read[b.patch].insert(back.patch);
+  CHECK(read[long_name] == std::set<std::string>{long_name.substr(0, 32)});
+  CHECK(read[long_name + "_side"] == std::set<std::string>{"the_surface_of_the_main__2"});
+  CHECK(read[long_name.substr(0, 32)] == std::set<std::string>{"the_surface_of_the_main__3"});
+  CHECK(read["tip"] == std::set<std::string>{"tip"});
 }
 
 TEST_CASE("what is no CGNS file is refused by name", "[aero][grid][fast]") {
