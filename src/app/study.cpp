@@ -18,6 +18,7 @@
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_scene.hpp"
+#include "src/coupling/saved_air.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
@@ -88,13 +89,21 @@ struct Checked {
 /// Digests of files, each read once however many runs name it.
 using Digests = std::map<std::string, scene::FileDigest>;
 
-std::string identity_of(const std::string& echo, const scene::FileRecord& read, Digests& digests) {
+std::string identity_of(const std::string& echo, const scene::FileRecord& read, const coupling::Scenario& scenario,
+                        Digests& digests) {
   scene::Identity identity{echo, {}};
   for (const auto* files : {&read.files(), &read.states()})
     for (const std::string& file : *files) {
       if (!digests.contains(file)) digests[file] = scene::digest_of(file);
       identity.files.push_back(digests[file]);
     }
+  const auto& sea = scenario.sea.initial;
+  for (const std::string& file : {scenario.start.file, scenario.start.air, sea ? sea->file : std::string()}) {
+    if (file.empty() || file.ends_with(".h5")) continue;
+    const std::string newest = "newest of " + file;  // it stands for the newest checkpoint beside it, which a run replaces
+    if (!digests.contains(newest)) digests[newest] = scene::digest_of(coupling::open_saved(MPI_COMM_SELF, file).path());
+    identity.files.push_back(digests[newest]);
+  }
   return identity.text();
 }
 
@@ -104,7 +113,7 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   scene::Document document = scene::load(file, overrides, overrider);
   const scene::FileRecord read;
   const coupling::Scenario scenario = coupling::read_scenario(document);
-  const std::string identity = identity_of(document.echo(), read, digests);
+  const std::string identity = identity_of(document.echo(), read, scenario, digests);
   if (!forecasts) return {identity, {}, {}};
   const double before = processor_seconds(), end_s = scenario.time.end_s;
   if (scenario.has_flow())

@@ -116,14 +116,16 @@ values = [0.02]
 column = "buoy.z_m"
 measure = "last"
 """
-        found = []
-        for high in (0.1, 0.3):
-            done = subprocess.run([str(PROGRAM), "run", str(scene), "--out", str(other), "--overwrite", "--quiet", "--no-report", "--set", "time.end_s=1.0", "--set",
-                                   f"bodies.buoy.displacement_m=[0.0,0.0,{high}]"], capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            (self.path / "start.h5").write_bytes(max((other / "checkpoints").glob("*.h5")).read_bytes())
-            found.append(self.values(text, "heave"))
-        self.assertNotEqual(*found)
+        for start in ("start.h5", "other/mark"):   # the file, or another one beside the checkpoints
+            found = []
+            for high in (0.1, 0.3):
+                done = subprocess.run([str(PROGRAM), "run", str(scene), "--out", str(other), "--overwrite", "--quiet", "--no-report", "--set", "time.end_s=1.0", "--set",
+                                       f"bodies.buoy.displacement_m=[0.0,0.0,{high}]"], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                (self.path / "start.h5").write_bytes(max((other / "checkpoints").glob("*.h5")).read_bytes())
+                (other / "mark").write_text("the same for both\n")
+                found.append(self.values(text.replace("start.h5", start), "heave"))
+            self.assertNotEqual(*found, start)
 
     def test_a_dry_run_runs_nothing(self):
         done = self.study(STUDY, "--dry-run")
