@@ -277,6 +277,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
         cli.add_subcommand("import", "Make a scene from an OpenFAST deck (versions 3 to 5) or a windIO turbine (1.x)");
     command->add_option("main", arguments->file, "Main input file (.fst), or turbine (.yaml)")->required();
     command->add_option("-o,--out,--output", arguments->out, "Folder for scene.toml and its files")->required()->check(folder);
+    command->add_flag("--overwrite", arguments->overwrite, "Replace the scene in the folder, and its files");
     command->add_flag(
         "--rigid-tower", arguments->rigid_tower,
         "A tower that bends in the deck stays rigid in the scene; of a windIO turbine no table of a beam is written");

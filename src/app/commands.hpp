@@ -98,7 +98,7 @@ struct ReplayArguments {
 
 struct ImportArguments {
   std::string file, out;
-  bool rigid_tower = false, rigid_blades = false, quasi_static_lines = false;
+  bool overwrite = false, rigid_tower = false, rigid_blades = false, quasi_static_lines = false;
 };
 
 int run(const RunArguments& arguments, const runtime::World& world);

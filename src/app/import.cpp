@@ -7,6 +7,7 @@
 #include "src/app/commands.hpp"
 #include "src/import/openfast.hpp"
 #include "src/import/windio.hpp"
+#include "src/io/machine_failure.hpp"
 #include "src/scene/error.hpp"
 #include "src/scene/value.hpp"
 
@@ -22,6 +23,10 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
     throw scene::SceneError({{"command line", 0, "--rigid-blades", "", "has no effect: windIO's blades are carried over rigid"}});
   if (windio && arguments.quasi_static_lines)
     throw scene::SceneError({{"command line", 0, "--quasi-static-lines", "", "has no effect: a windIO turbine has no lines"}});
+  if (const auto scene = std::filesystem::path(arguments.out) / "scene.toml";
+      !arguments.overwrite && std::filesystem::exists(scene))
+    throw io::InputError(scene.string() +
+                         ": is there already; choose another folder with --out, or say --overwrite to replace it");
   const auto tower = arguments.rigid_tower ? decks::ImportedTower::rigid : decks::ImportedTower::as_in_deck;
   const decks::Imported result =
       windio ? decks::import_windio(arguments.file, arguments.out, tower)

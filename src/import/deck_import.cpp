@@ -10,7 +10,9 @@ namespace spindrift::decks {
 
 void DeckImport::copy(const std::filesystem::path& file) const {
   if (!std::filesystem::exists(file)) main.fail(std::nullopt, fmt::format("names {}, which is not there", file.string()));
-  std::filesystem::copy_file(file, folder / file.filename(), std::filesystem::copy_options::overwrite_existing);
+  const std::filesystem::path copy = folder / file.filename();
+  if (std::error_code absent; std::filesystem::equivalent(file, copy, absent)) return;  // a scene beside its deck
+  std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
 }
 
 bool any_on(const Deck& elastodyn, std::initializer_list<const char*> freedoms) {

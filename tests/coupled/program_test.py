@@ -80,6 +80,14 @@ class Program(Folder):
         self.assertIn("absent.toml", done.stderr)
         self.assertLess(time.monotonic() - began, 40.0)
 
+    def test_an_import_leaves_a_scene_that_is_there_alone_unless_told(self):
+        self.out.mkdir()
+        (self.out / "scene.toml").write_text("mine")
+        done = spindrift("import", CASE1, "--out", self.out)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(f"{self.out}/scene.toml: is there already", done.stderr)
+        self.assertIn("this is not an OpenFAST main file", spindrift("import", CASE1, "--out", self.out, "--overwrite").stderr)
+
     def recorded(self, *more, ranks=0, threads=None):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"

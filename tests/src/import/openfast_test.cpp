@@ -175,6 +175,17 @@ TEST_CASE("the deck's platform, rotor, water, lines and waves are the scene's", 
   CHECK(line.anchor_m->z() == -200.0);
 }
 
+TEST_CASE("a scene may stand in the folder of its deck", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("hd.dat", "wamit/spar", "spar");
+  for (const char* ending : {".1", ".3", ".hst"})
+    deck.files[std::string("spar") + ending] = deck.files[std::string("wamit/spar") + ending];
+  deck.import();
+  const std::filesystem::path folder = deck.folder / "deck";
+  CHECK(std::filesystem::exists(decks::import_openfast(folder / "main.fst", folder).scene));
+  CHECK(std::filesystem::file_size(folder / "spar.1") == deck.files["spar.1"].size());
+}
+
 TEST_CASE("members have the coefficients that the deck gives them, and the ballast in them has mass", "[import][fast]") {
   SmallDeck deck;
   const double empty = deck.scenario().bodies[0].options.mass_kg;
