@@ -26,6 +26,10 @@ namespace {
   throw scene::SceneError({{file.string(), line, "", value, message}});
 }
 
+[[noreturn]] void refuse_hole(const std::filesystem::path& file, int line, std::size_t node, std::size_t block) {
+  refuse(file, line, "", fmt::format("node {} of block {} is blanked out (iblank 0): holes are not read", node + 1, block + 1));
+}
+
 constexpr long largest_dimension = 100'000'000;
 
 /// How a file may be laid out: block count given or not, coordinates per node, an integer per node behind them or not.
@@ -149,6 +153,9 @@ MultiBlockGrid formatted(const std::filesystem::path& file, const std::string& t
     for (const Index& n : blocks) {
       x.clear();
       for (std::size_t p = 0; p < count(n) * a.dimensions; ++p) { x.push_back(numbers[at + p].value); }
+      for (std::size_t p = 0; a.blanked && p < count(n); ++p)
+        if (const Number& blank = numbers[at + x.size() + p]; blank.value == 0)
+          refuse_hole(file, blank.line, p, grid.blocks.size());
       at += count(n) * (a.dimensions + a.blanked);
       add_block(grid, file, n, a.dimensions, width, x);
     }
@@ -212,6 +219,9 @@ MultiBlockGrid binary(const std::filesystem::path& file, const std::string& byte
               if (!std::isfinite(x.back()))
                 refuse(file, 0, "", fmt::format("coordinate {} of block {} is not finite", p, grid.blocks.size() + 1));
             }
+            for (std::size_t p = 0; a.blanked && p < count(n); ++p)
+              if (from_bytes<std::int32_t>(data + real * x.size() + 4 * p, swapped) == 0)
+                refuse_hole(file, 0, p, grid.blocks.size());
             at += size + marks;
             add_block(grid, file, n, a.dimensions, width, x);
           }

@@ -192,6 +192,30 @@ TEST_CASE("formatted files may repeat numbers, use D exponents and turn the othe
   CHECK(grid_faults(closed).empty());
 }
 
+TEST_CASE("nodes may be marked as in use; holes are refused", "[aero][grid][fast]") {
+  const ScratchFile file("blank.p3d");
+  const std::string text = "1\n2 2 2\n0 1 0 1 0 1 0 1\n0 0 1 1 0 0 1 1\n0 0 0 0 1 1 1 1\n";
+  file.write(text + "1 1 1 1 1 1 1 2\n");
+  CHECK(read_plot3d(file.path).blocks[0].nodes[7] == Vector3d(1, 1, 1));
+  file.write(text + "1 1 1 1 1 1 0 1\n");
+  expect_refusal([&] { read_plot3d(file.path); }, "blank.p3d:6: node 7 of block 1 is blanked out (iblank 0)");
+  const bool swapped = GENERATE(false, true);
+  std::string bytes;
+  for (const int word : {4, 1, 4, 12, 2, 2, 2, 12, 224}) put(bytes, std::int32_t(word), swapped);
+  for (int n = 0; n < 24; ++n) put(bytes, double(n < 8 ? n % 2 : n < 16 ? n / 2 % 2 : n / 4 % 2), swapped);
+  const std::string coordinates = bytes;
+  const auto with = [&](int last) {
+    bytes = coordinates;
+    for (int n = 0; n < 8; ++n) put(bytes, std::int32_t(n < 7 ? 1 : last), swapped);
+    put(bytes, std::int32_t(224), swapped);
+    file.write(bytes);
+  };
+  with(1);
+  CHECK(read_plot3d(file.path).blocks[0].nodes[7] == Vector3d(1, 1, 1));
+  with(0);
+  expect_refusal([&] { read_plot3d(file.path); }, "node 8 of block 1 is blanked out");
+}
+
 TEST_CASE("left-handed blocks get i and j exchanged with all their windows", "[aero][grid][fast]") {
   const MultiBlockGrid right = turned_box(cartesian_box({.ni = 6, .nj = 7, .nk = 8, .periodic = {true, false, false}}), 21);
   MultiBlockGrid left = right;
