@@ -108,6 +108,8 @@ double History::resume(const std::filesystem::path& path, double time_s, const s
   std::string line;
   std::getline(in, line);
   const std::string header = header_of(columns_);
+  if (line == header + "\r")
+    throw InputError(path.string() + " was saved with other line ends (CR LF): put a copy of it back, or save it with LF");
   if (in.eof() || line != header)
     throw InputError(path.string() + " was written with other columns: " + difference(line, header) +
                      "; restart with the scene of the first run, or start anew");

@@ -43,6 +43,7 @@ std::vector<std::string_view> split(std::string_view line) {
 
 std::optional<double> finite_number(std::string_view cell) {
   double value = 0.0;
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return {};
   return value;

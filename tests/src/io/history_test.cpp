@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <random>
 
@@ -111,6 +112,8 @@ TEST_CASE("a history of other columns is not resumed; the first that differs is 
   CHECK_THROWS_WITH(other.resume(folder / "h.csv", 1.0), Contains("'platform.sea.fx_N'") && Contains("'platform.wind.fx_N'"));
   io::History fewer;
   CHECK_THROWS_WITH(fewer.resume(folder / "h.csv", 1.0), Contains("'platform.x_m'") && Contains("no further column"));
+  std::ofstream(folder / "crlf.csv") << "time_s\r\n0.1\r\n";
+  CHECK_THROWS_WITH(fewer.resume(folder / "crlf.csv", 1.0), Contains("was saved with other line ends (CR LF)"));
   CHECK(io::read_file(folder / "h.csv") == before);
 }
 

@@ -22,7 +22,7 @@ std::string file_with(const std::string& text) {
 }  // namespace
 
 TEST_CASE("named columns are read past comments and blank lines", "[scene][fast]") {
-  const Columns t = read_columns(file_with("# source: a report\n\ntime_s, thrust_N # mean\n0, 1.5e6\r\n 0.5 ,-2\n"));
+  const Columns t = read_columns(file_with("# source: a report\n\ntime_s, thrust_N # mean\n+0, +1.5e6\r\n 0.5 ,-2\n"));
   CHECK(t.rows() == 2);
   CHECK(t.has("thrust_N"));
   CHECK(t["time_s"][1] == 0.5);
@@ -52,10 +52,11 @@ TEST_CASE("a data file that is not a table is refused where it goes wrong", "[sc
   };
   const auto c =
       GENERATE(Case{"a,b\n1,2\n3\n", ":3: has 1 values where there are 2 columns (a, b)"}, Case{"a,b\n1,two\n", ":2 = \"two\""},
-               Case{"a,b\n1,\n", "must be a finite number (column b)"}, Case{"a\nnan\n", "must be a finite number"},
-               Case{"a\n1e999\n", "must be a finite number"}, Case{"# nothing\n", "holds no table"},
-               Case{"a;b\n1;2\n", ":1: has semicolons between its columns"}, Case{"# x\na\tb\n1\t2\n", ":2: has tabs between"},
-               Case{"a b\n1 2\n", "has blanks between"}, Case{"a,b,a\n1,2,3\n", ":1: has two columns \"a\""},
+               Case{"a\n+-1\n", ":2 = \"+-1\""}, Case{"a,b\n1,\n", "must be a finite number (column b)"},
+               Case{"a\nnan\n", "must be a finite number"}, Case{"a\n1e999\n", "must be a finite number"},
+               Case{"# nothing\n", "holds no table"}, Case{"a;b\n1;2\n", ":1: has semicolons between its columns"},
+               Case{"# x\na\tb\n1\t2\n", ":2: has tabs between"}, Case{"a b\n1 2\n", "has blanks between"},
+               Case{"a,b,a\n1,2,3\n", ":1: has two columns \"a\""},
                Case{"a,b\n0,5,1,5\n", ":2: has 4 values where there are 2 columns (a, b); decimal commas?"},
                Case{"\xFF\xFE"
                     "a,b",
