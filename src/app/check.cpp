@@ -251,7 +251,15 @@ std::vector<std::string> told_apart(const std::vector<bodies::Mode>& modes) {
   return names;
 }
 
-void print_modes(FloatingSystem& floating, const coupling::Stability& stability) {
+/// Of the body that is let go fastest [m/s2].
+double acceleration_at(FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::MeanLoads mean(floating);
+  double most = 0.0;
+  for (const Eigen::Vector3d& a : floating.multibody().evaluate(start.state, 0.0).acceleration) most = std::max(most, a.norm());
+  return most;
+}
+
+void print_modes(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
   const bodies::Linearisation& linearisation = stability.shown();
   fmt::print("\nModes about the {}{}\n", stability.at_rest ? "static equilibrium" : "start",
              floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
@@ -269,6 +277,9 @@ void print_modes(FloatingSystem& floating, const coupling::Stability& stability)
     fmt::print("  {} of {} freedoms without stiffness\n", free, linearisation.matrix.rows() / 2);
   if (!floating.beams().empty() && !floating.scenario().start.equilibrium && !stability.at_rest)
     fmt::print("  without the weight that softens beams: it does so in a static equilibrium, and none is known\n");
+  constexpr double at_rest = 0.2;  // m/s2
+  if (const double a = acceleration_at(floating, start); a > at_rest && !stability.at_rest)
+    fmt::print("  the start is no equilibrium (it accelerates by {:.3g} m/s2): with start.equilibrium they may differ\n", a);
   if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
     fmt::print(
         "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
@@ -634,7 +645,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
     print_doubts(angles, coupling::doubts(floating, start, stability));
     if (floating.rotor() && !start.state.motions.empty()) print_rotors_at_start(floating, start);
-    if (!start.state.motions.empty()) print_modes(floating, stability), print_all_blade_modes(floating);
+    if (!start.state.motions.empty()) print_modes(floating, start, stability), print_all_blade_modes(floating);
   }
   if (refusal) throw *refusal;
   if (world.rank != 0) return done;
