@@ -668,10 +668,8 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   };
   if (!coupling::has_level_water(floating.scenario()))
     fmt::print("\nStatic equilibrium: not sought, as the water of [[sea.water]] is not level at z = 0 from side to side\n");
-  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium
-                                             : stability.rest  ? *stability.rest
-                                                               : equilibrium_now();
-           found.problem.empty())
+  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : equilibrium_now();
+           found.problem.empty())  // its lines are at rest there, unlike those of the modes by now
     print_equilibrium(floating, found);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", found.problem);
