@@ -75,16 +75,25 @@ Deck::Deck(const std::filesystem::path& file, const std::string& comments) : fil
 }
 
 std::optional<std::size_t> Deck::find(const std::vector<std::string>& names) const {
-  for (const std::string& name : names) {
-    const std::string wanted = plain(name);
-    for (std::size_t n = 0; n < lines_.size(); ++n) {
+  const auto among = [&](std::size_t from, std::size_t to, const std::string& wanted) -> std::optional<std::size_t> {
+    for (std::size_t n = from; n < to; ++n) {
       const std::vector<std::string>& words = lines_[n].words;
+      if (!words.empty() && (words[0].starts_with("---") || words[0].starts_with("==="))) continue;  // "---- FURLING ----"
       // Behind the values and before the comment: the first word that is no number, apart from the first of the line.
       for (std::size_t w = 1; w < words.size(); ++w) {
         if (plain(words[w]) == wanted) return n;
         if (!number_in(words[w])) break;
       }
     }
+    return std::nullopt;
+  };
+  const std::size_t titles = std::min<std::size_t>(2, lines_.size());  // any word may stand in them
+  const auto is_title = [&](std::size_t n) {
+    return lines_[n].words.size() > 2 && !number_in(lines_[n].words[0]) && lines_[n].words[2] != "-";
+  };
+  for (const std::string& name : names) {
+    if (const auto line = among(titles, lines_.size(), plain(name))) return line;
+    if (const auto line = among(0, titles, plain(name)); line && !is_title(*line)) return line;
   }
   return std::nullopt;
 }

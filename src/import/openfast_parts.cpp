@@ -296,10 +296,10 @@ double generator_inertia(const Deck& ed) {
 
 namespace {
 
-/// Line of the first heading of a section below: the one whose first word is this.
+/// Line of the first heading of a section below: the one whose first word is this, or "ID" as files have it of late.
 std::size_t heading_of(const Deck& file, std::size_t from, const std::string& first_word) {
   for (std::size_t n = from; n < file.size(); ++n)
-    if (!file.words(n).empty() && file.words(n)[0] == first_word) return n;
+    if (!file.words(n).empty() && (file.words(n)[0] == first_word || file.words(n)[0] == "ID")) return n;
   file.fail(std::nullopt, "has no table that begins with " + first_word);
 }
 
@@ -397,7 +397,7 @@ std::string not_tied(const Deck& file, const std::string& line, const LinePoint&
 
 ImportedMoorings read_map(const Deck& file, double depth, std::vector<std::string>& left_out) {
   const std::size_t types = heading_of(file, 0, "LineType"), nodes = heading_of(file, types, "Node"),
-                    lines = heading_of(file, nodes, "Line");
+                    lines = heading_of(file, nodes + 1, "Line");
   struct Type {
     double diameter, mass, stiffness, friction;
   };
@@ -516,8 +516,12 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   note_other_tables(file, file_name, left_out);
   note_options(file, file_name, depth, left_out);
   const auto section_if = [&](std::initializer_list<const char*> words) -> std::optional<std::size_t> {
-    for (std::size_t n = 0; n < file.size(); ++n)
-      if (is_rule(file, n) && has_one_of(title_of(file, n), words)) return n + 1;
+    for (std::size_t n = 0; n + 1 < file.size(); ++n)
+      if (is_rule(file, n) && has_one_of(title_of(file, n), words)) {
+        const auto& next = file.words(n + 1);  // before OpenFAST 3.3 the number of rows: "3 NLines"
+        const bool counts = next.size() > 1 && number_in(next[0]) && in_lower_case(next[1]).rfind("n", 0) == 0;
+        return n + (counts ? 2 : 1);
+      }
     return std::nullopt;
   };
   const auto section = [&](std::initializer_list<const char*> words) {

@@ -217,8 +217,11 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density) 
   else
     for (const char* key : {"MnDrift", "NewmanApp", "DiffQTF", "SumQTF"})
       if (hd.integer({key}, 0) != 0) run.leave_out(fmt::format("{} without PotMod 1", key));
-  sea += matrices(hd);
-  const std::string platform = cylinders(all) + added_force(hd);
+  const std::string added = matrices(hd), force = added_force(hd);
+  if (!potential && !(added + force).empty())
+    run.leave_out("AddF0, AddCLin, AddBLin, AddBQuad: HydroDyn has them with PotMod 1 alone");
+  if (potential) sea += added;
+  const std::string platform = cylinders(all) + (potential ? force : "");
   const bool diffracts = std::ranges::any_of(all, &Member::diffracts);
   sea += import_waves(run, waves,
                       potential   ? "the sea is potential flow, which is linear in the waves"

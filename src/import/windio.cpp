@@ -55,13 +55,18 @@ bool place_by_thickness(std::vector<Position>& positions, const std::map<std::st
 }
 
 /// Of a section, by Reynolds number; zero where there is one polar. A map, for nodes of YAML must not be assigned to each other.
+/// Of several configurations, such as free and fixed transition, the first counts.
 std::map<double, Key> polars_of(const Foil& foil) {
   const std::vector<Key> entries = foil.key.at("polars").entries();
-  if (entries.size() == 1) return {{0.0, entries[0]}};
   std::map<double, Key> polars;
-  for (const Key& entry : entries)
-    if (!polars.try_emplace(entry.at("re").positive(), entry).second)
+  for (const Key& entry : entries) {
+    const double reynolds = entries.size() == 1 ? 0.0 : entry.at("re").positive();
+    const auto [first, added] = polars.try_emplace(reynolds, entry);
+    if (!added && (!entry.has("configuration") || !first->second.has("configuration") ||
+                   entry.at("configuration").text() == first->second.at("configuration").text()))
       entry.at("re").fail("is the Reynolds number of another polar of this airfoil");
+  }
+  if (polars.size() == 1) return {{0.0, polars.begin()->second}};
   return polars;
 }
 
@@ -92,8 +97,9 @@ struct Operating {
 Operating read_operating(const Key& control, double tip_radius) {
   const Key torque = control.at("torque"), supervisory = control.at("supervisory");
   Operating o;
-  o.least = torque.at("VS_minspd").positive(), o.most = torque.at("VS_maxspd").positive(), o.ratio = torque.at("tsr").positive();
+  o.least = torque.at("VS_minspd").number(), o.most = torque.at("VS_maxspd").positive(), o.ratio = torque.at("tsr").positive();
   o.cut_in = supervisory.at("Vin").positive();
+  if (o.least < 0.0) torque.at("VS_minspd").fail("must not be negative");
   if (o.most <= o.least) torque.at("VS_maxspd").fail(fmt::format("must be more than VS_minspd = {:g}", o.least));
   o.rated_wind = o.most * tip_radius / o.ratio;
   if (o.rated_wind <= o.cut_in)
@@ -269,7 +275,12 @@ void write_scene(const Site& site, double wind, bool by_reynolds, const std::str
 
 bool has_shape(const Key& tower) { return tower.has("outer_shape_bem"); }
 
-void tell_left_out(const Key& top, const Blade& b, std::vector<std::string>& left_out) {
+void tell_left_out(const Key& top, const Blade& b, const std::map<std::string, Foil>& foils, std::vector<std::string>& left_out) {
+  if (std::ranges::any_of(b.positions, [&](const Position& p) {
+        const Foil& foil = foils.at(p.airfoil);
+        return polars_of(foil).size() < foil.key.at("polars").entries().size();
+      }))
+    left_out.push_back("polars of an airfoil at the Reynolds number of one before: each has its first configuration");
   const Key assembly = top.at("assembly"), parts = top.at("components");
   if (assembly.has("rotor_diameter")) {
     const double said = assembly.at("rotor_diameter").positive();
@@ -340,7 +351,7 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
     result.carried.push_back(
         "tower.csv: mass and stiffness of the tower, for [beams.NAME] properties of a scene with the masses on it");
   if (tower == ImportedTower::rigid && layered) result.left_out.push_back("layers of the tower's wall (--rigid-tower)");
-  tell_left_out(top, blade, result.left_out);
+  tell_left_out(top, blade, foils, result.left_out);
   return result;
 }
 

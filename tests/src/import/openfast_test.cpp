@@ -706,6 +706,56 @@ SmallDeck deck_of_moordyn(const std::string& anchor, const std::string& rows, co
 
 }  // namespace
 
+TEST_CASE("headings of MAP++ may begin with ID, tables of MoorDyn with the number of their rows", "[import][fast]") {
+  SmallDeck deck;
+  const std::size_t lines = deck.scenario().moorings.size();
+  deck.replace("map.dat", "Node Type X", "ID Attachment X");
+  deck.replace("map.dat", "Line LineType", "ID LineType");
+  CHECK(deck.scenario().moorings.size() == lines);
+  SmallDeck counted = deck_of_moordyn("-200", "", "");
+  counted.replace("map.dat", "LINE TYPES ---\n", "LINE TYPES ---\n1 NTypes - number of line types\n");
+  counted.replace("map.dat", "LINES ----\n", "LINES ----\n1 NLines - number of lines\n");
+  CHECK(counted.scenario().moorings.size() == 1);
+}
+
+TEST_CASE("loads that HydroDyn adds to potential flow are left out without it", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("hd.dat", "0 AddF0", "1e6 AddF0");
+  CHECK(deck.scenario().sea.matrices.size() == 1);
+  CHECK_FALSE(has_word(deck.import().left_out, "AddF0"));
+  deck.replace("hd.dat", "1 PotMod", "0 PotMod");
+  CHECK(deck.scenario().sea.matrices.empty());
+  CHECK(has_word(deck.import().left_out, "AddF0"));
+}
+
+TEST_CASE("what a deck has and no scene is named, or refused where it turns the rotor round", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("ed.dat", "2 HubRad",
+               "2 HubRad\n0.5 OoPDefl\n---------------------- FURLING ----------------------\nTrue Furling");
+  deck.replace("ed.dat", "-3 PreCone(2)", "-4 PreCone(2)");
+  deck.replace("ad.dat", "False TwrAero", "False TwrAero\nTrue TFinAero");
+  deck.replace("sea.dat", "0 CurrMod", "0 CurrMod\nTrue WaveNDAmp");
+  deck.replace("main.fst", "0 CompServo", "1 CompServo");
+  deck.replace("srv.dat", "0 PCMode", "0 PCMode\n50 TimGenOf\n9999.9 TYawManS");
+  const std::vector<std::string> left_out = deck.import().left_out;
+  for (const char* what : {"OoPDefl 0.5", "Furling", "PreCone(2)", "TFinAero", "WaveNDAmp", "TimGenOf"}) {
+    CAPTURE(what);
+    CHECK(has_word(left_out, what));
+  }
+  CHECK_FALSE(has_word(left_out, "TYawManS"));
+  for (const char* key : {"2 NRotors", "True MirrorRotor"}) {
+    SmallDeck other;
+    other.replace("main.fst", "100 TMax - s", std::string("100 TMax - s\n") + key);
+    CHECK(other.refusal().find(std::string(key).substr(std::string(key).find(' ') + 1)) != std::string::npos);
+  }
+  // Viscosity and speed of sound are AeroDyn's, and a title is no key.
+  SmallDeck still;
+  still.replace("main.fst", "2 CompAero", "0 CompAero");
+  still.replace("main.fst", "1.225 AirDens", "0 AirDens\n0 KinVisc\n0 SpdSound");
+  still.replace("main.fst", "INPUT FILE ------\nsmall\n", "INPUT FILE ------\nFloating MHK turbine\n");
+  CHECK(still.refusal() == "");
+}
+
 TEST_CASE("comments and blank lines of MoorDyn are none of its rows", "[import][fast]") {
   const coupling::Scenario s = deck_of_moordyn("-200", "\n#2 chain 1 2 560 20 -\n! 3 chain 1 2 570 20 -\n", "").scenario();
   CHECK(s.moorings.size() == 1);

@@ -92,6 +92,26 @@ TEST_CASE("all Reynolds numbers of an airfoil are carried over, with the viscosi
   CHECK(spindrift::aero::depends_on_reynolds(read));
 }
 
+TEST_CASE("of several configurations of an airfoil the first is taken, and least speeds may be nothing", "[fast]") {
+  const std::string polar = "re: 1e6, c_l: {grid: [-3.141, 0.0, 3.141], values: [0.0, ",
+                    rest =
+                        ", 0.0]}, c_d: {grid: [-3.141, 3.141], "
+                        "values: [0.01, 0.01]}";
+  const auto text = [&](const std::string& other) {
+    std::string all = replaced("[{" + polar + "0.4" + rest + "}]",
+                               "[{configuration: clean, " + polar + "0.4" + rest + "}, {" + other + polar + "0.3" + rest + "}]");
+    const std::size_t at = all.find("VS_minspd: 0.5");
+    return all.replace(at, 14, "VS_minspd: 0.0");
+  };
+  CHECK(windio_refusal(text("")).message.find("is the Reynolds number of another polar") != std::string::npos);
+  const WindioFolder folder;
+  std::ofstream(folder.path / "t.yaml") << text("configuration: rough, ");
+  const auto imported = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
+  CHECK(std::ranges::any_of(imported.left_out, [](const auto& s) { return s.find("first configuration") != std::string::npos; }));
+  const auto turbine = spindrift::aero::read_turbine((folder.path / "out/turbine.toml").string());
+  CHECK(turbine.blades == 3);
+}
+
 TEST_CASE("airfoils whose thickness does not fall along the span are told apart by number", "[fast]") {
   std::string text = replaced("relative_thickness: 1.0", "relative_thickness: 0.2");
   text.replace(text.find("[root, root, tip]"), 17, "[tip, root, tip]");
