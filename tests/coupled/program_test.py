@@ -442,6 +442,10 @@ class Checks(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("has neither power_W nor a speed that rises with the wind", errors)
 
+    def test_a_start_that_is_no_equilibrium_is_told_with_its_modes(self):
+        self.assertIn("the start is no equilibrium (it accelerates by", checked("tutorials/pendulum.toml")[1])
+        self.assertNotIn("is no equilibrium", checked("leble_barakos/case3_engineering.toml")[1])
+
     def test_every_scene_of_inputs_passes_check(self):
         parts = {"platform.toml", "paper_tank.toml", "tower_passage.toml", "half_size_turbine.toml", "steps.toml", "expected.toml"}
         files = [file.relative_to(ROOT / "inputs") for file in sorted((ROOT / "inputs").rglob("*.toml"))]
