@@ -185,6 +185,7 @@ void print_cost_of_steps(const coupling::Timeline& t, const BaseCost& base, doub
 
 void print_equilibrium(FloatingSystem& floating, const bodies::Equilibrium& equilibrium) {
   const bodies::BodiesState& state = equilibrium.state;
+  floating.multibody().open_chart(state, 0.0);  // brings dynamic lines to rest there
   const auto bodies = floating.multibody().bodies();
   const std::size_t lines = floating.moorings() ? floating.moorings()->size() : 0;
   const std::size_t junctions = floating.moorings() ? floating.moorings()->junctions() : 0;
@@ -668,8 +669,10 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   };
   if (!coupling::has_level_water(floating.scenario()))
     fmt::print("\nStatic equilibrium: not sought, as the water of [[sea.water]] is not level at z = 0 from side to side\n");
-  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium : equilibrium_now();
-           found.problem.empty())  // its lines are at rest there, unlike those of the modes by now
+  else if (const bodies::Equilibrium found = start.equilibrium ? *start.equilibrium
+                                             : stability.rest  ? *stability.rest
+                                                               : equilibrium_now();
+           found.problem.empty())
     print_equilibrium(floating, found);
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", found.problem);

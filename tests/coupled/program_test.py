@@ -3,6 +3,7 @@ import concurrent.futures
 import contextlib
 import functools
 import json
+import math
 import os
 import pathlib
 import re
@@ -441,6 +442,23 @@ class Checks(unittest.TestCase):
             code, _, errors = checked("leble_barakos/case3_controlled.toml", (f"rotor.operation={table}",))
         self.assertEqual(code, 2)
         self.assertIn("has neither power_W nor a speed that rises with the wind", errors)
+
+    def test_tensions_beside_the_static_equilibrium_are_those_of_dynamic_lines_at_rest_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = f'base = "{ROOT}/inputs/leble_barakos/flexible_tower.toml"\nwithout = ["moorings"]\n[coupling]\nscheme = "monolithic"\n'
+            for n in range(3):
+                out = [math.cos(2.0 * math.pi * n / 3.0), math.sin(2.0 * math.pi * n / 3.0)]
+                fairlead, anchor = ([r * out[0], r * out[1], z] for r, z in ((46.7, -7.0), (262.0, -20.6)))
+                text += (f'[moorings.line_{n}]\nmodel = "lumped_mass"\nbody = "platform"\nfairlead_m = {fairlead}\nanchor_m = {anchor}\nrest_length_m = 216.2\n'
+                         "axial_stiffness_N = 4e8\nmass_kg_m = 400.0\ndiameter_m = 0.25\n")
+            scene = pathlib.Path(folder, "scene.toml")
+            scene.write_text(text, encoding="utf-8")
+            said = [spindrift("check", scene, settings=settings).stdout.partition("Static equilibrium")[2] for settings in (("start.equilibrium=false",), ("start.equilibrium=true",))]
+        tensions = [[float(t) for t in re.findall(r"tension ([\d.]+) kN", text)] for text in said]
+        self.assertEqual(len(tensions[0]), 3)
+        self.assertGreater(max(tensions[0]), 2.0 * min(tensions[0]))   # the wind leans on two of them
+        for found, expected in zip(*tensions, strict=True):
+            self.assertAlmostEqual(found, expected, delta=2e-3 * expected)
 
     def test_a_start_that_is_no_equilibrium_is_told_with_its_modes(self):
         self.assertIn("the start is no equilibrium (it accelerates by", checked("tutorials/pendulum.toml")[1])
