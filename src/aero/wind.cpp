@@ -48,6 +48,10 @@ WindTable read_wind_table(const std::string& path) {
           column("vertical_m_s", 1.0)};
 }
 
+bool rises(const WindTable& table) {
+  return std::ranges::any_of(table.vertical, [](double v) { return v != 0.0; });
+}
+
 }  // namespace
 
 class WindInTime {
@@ -289,17 +293,15 @@ double greatest_speed(const WindOptions& wind) {
 
 bool has_directions(const WindOptions& wind) { return !wind.table.empty() && !read_wind_table(wind.table).direction.empty(); }
 
-bool rises(const WindOptions& wind) {
-  return !wind.table.empty() && std::ranges::any_of(read_wind_table(wind.table).vertical, [](double v) { return v != 0.0; });
-}
+bool rises(const WindOptions& wind) { return !wind.table.empty() && rises(read_wind_table(wind.table)); }
 
 bool turns(const WindOptions& wind) {
   if (wind.event &&
       (wind.event->what == WindEvent::ecd || wind.event->what == WindEvent::edc || wind.event->direction_change != 0.0))
     return true;
   if (wind.table.empty()) return false;
-  const std::vector<double> directions = read_wind_table(wind.table).direction;
-  return rises(wind) || std::ranges::any_of(directions, [&](double d) { return d != directions.front(); });
+  const WindTable table = read_wind_table(wind.table);
+  return rises(table) || std::ranges::any_of(table.direction, [&](double d) { return d != table.direction.front(); });
 }
 
 Wind wind_of(const WindOptions& wind, const WindSite& site) {
