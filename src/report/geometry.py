@@ -7,6 +7,8 @@ import pathlib
 
 import numpy as np
 
+from run_data import columns
+
 ROUND = 36  # corners of a circle
 # The kinds of pieces and the colour of each.
 COLOURS = {"float": (0.95, 0.72, 0.10), "brace": (0.93, 0.75, 0.25), "tower": (0.90, 0.92, 0.94), "nacelle": (0.80, 0.83, 0.87),
@@ -209,12 +211,6 @@ def outline_up(y):
     """Positive where an outline begins with its upper side."""
     half = len(PLACES)
     return float(y[:half].mean() - y[half:].mean())
-
-
-def columns(path):
-    """{name: values} of a CSV file with comments."""
-    rows = [line.split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
-    return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
 class Rotor:

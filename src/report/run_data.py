@@ -17,6 +17,12 @@ TRACE_LIMIT_BYTES = 200 << 20
 SILENT = ("output.", "checkpoint.", "runtime.", "time.end_s", "sea.fields.", "coupling.placement", "coupling.air_ranks")   # keys that change no result
 
 
+def columns(path):
+    """{name: values} of a CSV file with comments."""
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
+    return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+
+
 def with_bases(path):
     """A turbine file's tables with those of the files that its `base` names; what names a file in them is a path."""
     def taken(key):
@@ -154,8 +160,7 @@ class RunData:
         if path is None and isinstance(named := self.turbine(rotor).get("operation"), str) and named:
             path = pathlib.Path(named)
         try:
-            rows = [line.split(",") for line in path.read_text(encoding="utf-8-sig").splitlines() if line.strip() and not line.startswith("#")]
-            return {name.strip(): [float(row[i]) for row in rows[1:]] for i, name in enumerate(rows[0])}
+            return columns(path)
         except (AttributeError, OSError, ValueError, IndexError):
             return None
 
