@@ -78,7 +78,7 @@ std::optional<std::size_t> Deck::find(const std::vector<std::string>& names) con
   const auto among = [&](std::size_t from, std::size_t to, const std::string& wanted) -> std::optional<std::size_t> {
     for (std::size_t n = from; n < to; ++n) {
       const std::vector<std::string>& words = lines_[n].words;
-      if (!words.empty() && (words[0].starts_with("---") || words[0].starts_with("==="))) continue;  // "---- FURLING ----"
+      if (is_rule(n)) continue;
       // Behind the values and before the comment: the first word that is no number, apart from the first of the line.
       for (std::size_t w = 1; w < words.size(); ++w) {
         if (plain(words[w]) == wanted) return n;
@@ -168,6 +168,11 @@ std::filesystem::path Deck::path(const std::vector<std::string>& names) const { 
 const std::vector<std::string>& Deck::words(std::size_t line) const {
   if (line >= lines_.size()) fail(std::nullopt, "ends too early");
   return lines_[line].words;
+}
+
+bool Deck::is_rule(std::size_t line) const {
+  const std::vector<std::string>& words = lines_[line].words;
+  return !words.empty() && (words[0].find("---") != std::string::npos || words[0].find("===") != std::string::npos);
 }
 
 std::vector<std::vector<std::string>> Deck::rows(std::size_t first, std::size_t count, std::size_t least) const {

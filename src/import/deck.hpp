@@ -55,6 +55,8 @@ class Deck {
   std::vector<std::vector<std::string>> rows(std::size_t first, std::size_t count, std::size_t words) const;
   std::vector<double> numbers(std::size_t line, std::size_t count) const;
   const std::vector<std::string>& words(std::size_t line) const;
+  /// "---- FURLING ----": no words in it are keys.
+  bool is_rule(std::size_t line) const;
   std::size_t size() const { return lines_.size(); }
   /// Column of a table whose heading is this line; throws where there is none.
   std::size_t column(std::size_t heading, const std::vector<std::string>& names) const;

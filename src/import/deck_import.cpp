@@ -15,6 +15,12 @@ void DeckImport::copy(const std::filesystem::path& file) const {
   std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);
 }
 
+void DeckImport::leave_out_unless(const Deck& file, std::initializer_list<Neutral> numbers) {
+  for (const Neutral& n : numbers)
+    if (const double value = file.number({n.key}, n.value); value != n.value)
+      leave_out(fmt::format("{} {:g}: {}", n.key, value, n.what));
+}
+
 bool any_on(const Deck& elastodyn, std::initializer_list<const char*> freedoms) {
   return std::any_of(freedoms.begin(), freedoms.end(), [&](const char* f) { return elastodyn.flag({f}, false); });
 }

@@ -20,6 +20,12 @@ struct DeckImport {
 
   void leave_out(std::string what) { left_out.push_back(std::move(what)); }
   void carry(std::string what) { carried.push_back(std::move(what)); }
+  /// A number that no scene has, and the value at which it does nothing.
+  struct Neutral {
+    const char *key, *what;
+    double value = 0.0;
+  };
+  void leave_out_unless(const Deck& file, std::initializer_list<Neutral> numbers);
   /// A file that the scene takes as it is. Throws where it is not there.
   void copy(const std::filesystem::path& file) const;
 };

@@ -73,70 +73,18 @@ void list_rigid_parts(DeckImport& run, const Deck& elastodyn, bool tower_bends, 
     if (run.main.integer({part}, 0) != 0) run.leave_out(name);
 }
 
-/// A key with which a deck differs from its scene, and the value at which it does not.
-struct Neutral {
-  const char *key, *what;
-  double value = 0.0;
-};
-
-void tell_where_not(DeckImport& run, const Deck& file, std::initializer_list<Neutral> keys) {
-  for (const Neutral& n : keys)
-    if (const double value = file.number({n.key}, n.value); value != n.value)
-      run.leave_out(fmt::format("{} {:g}: {}", n.key, value, n.what));
-}
-
-void tell_where_on(DeckImport& run, const Deck& file, std::initializer_list<Neutral> keys) {
-  for (const Neutral& n : keys)
-    if (file.flag({n.key}, false)) run.leave_out(fmt::format("{}: {}", n.key, n.what));
-}
-
-/// Times from which ServoDyn does what a scene does by control.events.
-void tell_times(DeckImport& run, const Deck& servodyn, double end_s) {
-  for (const auto& [key, what] : {std::pair{"TPitManS(1)", "the pitch manoeuvre"}, std::pair{"TimGenOf", "the generator's stop"},
-                                  std::pair{"THSSBrDp", "the brake"}, std::pair{"TYawManS", "the yaw manoeuvre"}})
-    if (servodyn.number({key}, end_s) < end_s) run.leave_out(fmt::format("{}: {}; see control.events", key, what));
-  for (const char* key : {"TPCOn", "TimGenOn", "TYCOn"})
-    if (const double from = servodyn.number({key}, 0.0); from > 0.0 && from < end_s)
-      run.leave_out(fmt::format("{} {:g} s: control acts from the start", key, from));
-}
-
-/// What the deck has and a scene has not, module by module.
-void list_other_keys(DeckImport& run, const Deck& elastodyn, int blades) {
-  const Deck& main = run.main;
-  tell_where_not(run, elastodyn,
-                 {{"OoPDefl", "the blades' deflection at the start"},
-                  {"IPDefl", "the blades' deflection at the start"},
-                  {"TTDspFA", "the tower's deflection at the start"},
-                  {"TTDspSS", "the tower's deflection at the start"}});
+/// What of the structure has no place in a scene.
+void list_structure(DeckImport& run, const Deck& elastodyn, int blades) {
+  run.leave_out_unless(elastodyn, {{"OoPDefl", "the blades' deflection at the start"},
+                                   {"IPDefl", "the blades' deflection at the start"},
+                                   {"TTDspFA", "the tower's deflection at the start"},
+                                   {"TTDspSS", "the tower's deflection at the start"}});
   if (blades == 2)
-    tell_where_not(run, elastodyn, {{"UndSling", "the rotor's undersling"}, {"Delta3", "the teeter's delta-3 angle"}});
-  tell_where_on(run, elastodyn, {{"Furling", "furling"}});
+    run.leave_out_unless(elastodyn, {{"UndSling", "the rotor's undersling"}, {"Delta3", "the teeter's delta-3 angle"}});
+  if (elastodyn.flag({"Furling"}, false)) run.leave_out("Furling: the rotor does not turn out of the wind");
+  const auto cone = [&](int blade) { return elastodyn.number({fmt::format("PreCone({})", blade)}, 0.0); };
   for (int b = 2; b <= blades; ++b)
-    if (const auto cone = [&](int k) { return elastodyn.number({fmt::format("PreCone({})", k)}, 0.0); }; cone(b) != cone(1))
-      run.leave_out(fmt::format("PreCone({}) {:g} degrees: all blades have that of the first", b, cone(b)));
-  if (main.integer({"CompAero"}, 0) == 2) {
-    const Deck aerodyn(main.path({"AeroFile"}));
-    tell_where_on(run, aerodyn, {{"TFinAero", "the tail fin"}, {"NacelleDrag", "drag of the nacelle"}});
-    if (aerodyn.integer({"UA_Mod", "UAMod"}, 0) != 0)
-      tell_where_not(run, aerodyn,
-                     {{"UAStartRad", "sections stall dynamically from the root on"},
-                      {"UAEndRad", "sections stall dynamically up to the tip", 1.0}});
-    const auto file = [&](int b) {
-      const std::string key = fmt::format("ADBlFile({})", b);
-      return aerodyn.has(key) ? aerodyn.text({key}) : std::string();
-    };
-    for (int b = 2; b <= blades; ++b)
-      if (!file(b).empty() && file(b) != file(1))
-        run.leave_out(fmt::format("ADBlFile({}) {}: all blades are the first", b, file(b)));
-  }
-  if (main.integer({"CompServo"}, 0) == 1) tell_times(run, Deck(main.path({"ServoFile"})), main.number({"TMax"}));
-  if (main.integer({"CompHydro"}, 0) != 1) return;
-  const Deck hydrodyn(main.path({"HydroFile"}));
-  tell_where_not(
-      run, hydrodyn,
-      {{"PtfmRefY", "the yaw about which the loads are taken"}, {"AMMod", "the height up to which added mass counts"}});
-  tell_where_on(run, main.has("SeaStFile") && main.integer({"CompSeaSt"}, 1) == 1 ? Deck(main.path({"SeaStFile"})) : hydrodyn,
-                {{"WaveNDAmp", "amplitudes of a sea state that are drawn by lot; they follow the spectrum"}});
+    if (cone(b) != cone(1)) run.leave_out(fmt::format("PreCone({}) {:g} degrees: all blades have that of the first", b, cone(b)));
 }
 
 void write_scene(const DeckImport& run, double step, const std::string& sections) {
@@ -181,7 +129,7 @@ Imported import_openfast(const std::filesystem::path& main_file, const std::file
   system.controlled = !control.text.empty();
   const std::string bodies = import_bodies(run, elastodyn, rotor, system, water);
   list_rigid_parts(run, elastodyn, system.tower_bends, control.shaft_twists);
-  list_other_keys(run, elastodyn, rotor.blades);
+  list_structure(run, elastodyn, rotor.blades);
   write_scene(run, control.step.value_or(step), environment.text + bodies + turbine.text + moorings + control.text + water.text);
   return {folder / "scene.toml", run.left_out, run.carried};
 }

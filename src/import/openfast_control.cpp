@@ -69,6 +69,16 @@ ImportedControl library(DeckImport& run, const Deck& deck, const Deck& ed, const
   return control;
 }
 
+/// Times from which ServoDyn does what a scene does by control.events.
+void list_times(DeckImport& run, const Deck& servodyn, double end_s) {
+  for (const auto& [key, what] : {std::pair{"TPitManS(1)", "the pitch manoeuvre"}, std::pair{"TimGenOf", "the generator's stop"},
+                                  std::pair{"THSSBrDp", "the brake"}, std::pair{"TYawManS", "the yaw manoeuvre"}})
+    if (servodyn.number({key}, end_s) < end_s) run.leave_out(fmt::format("{}: {}; see control.events", key, what));
+  for (const char* key : {"TPCOn", "TimGenOn", "TYCOn"})
+    if (const double from = servodyn.number({key}, 0.0); from > 0.0 && from < end_s)
+      run.leave_out(fmt::format("{} {:g} s: control acts from the start", key, from));
+}
+
 }  // namespace
 
 ImportedControl import_control(DeckImport& run, const Deck& ed, const RotorFrame& rotor, bool has_rotor, TimeSteps bodies) {
@@ -100,6 +110,7 @@ ImportedControl import_control(DeckImport& run, const Deck& ed, const RotorFrame
     deck.fail(deck.find({"Ptch_Min"}), "Ptch_Min is more than Ptch_Max");
   for (const char* key : {"YCMode", "HSSBrMode", "AfCmode", "CCmode", "NumBStC", "NumNStC", "NumTStC", "NumSStC"})
     if (const int mode = deck.integer({key}, 0); mode != 0) run.leave_out(fmt::format("ServoDyn's {} {}", key, mode));
+  list_times(run, deck, run.main.number({"TMax"}));
   std::string why;
   if (!has_rotor)
     why = "there are no aerodynamics";

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -209,12 +210,13 @@ double tuned(const Deck& file, const std::string& tuner, int modes, std::vector<
 /// Damping of a mode of the tower with what stands on it. ElastoDyn's is of the tower alone: C = 2 zeta K / omega of the mode
 /// without the mass on top (CTFA and FreqTFA in its Coeff), which leaves zeta sqrt(m / (m + top)) of it.
 double damping_under(double top, const Deck& file, const Density& mass, double length, const std::string& plane, int mode) {
-  double own = 0.0;  // mass of the mode, whose shape is one at the top
+  std::array<double, 5> shape;  // coefficients of its powers of the height from 2 on; one at the top
+  for (std::size_t k = 0; k < shape.size(); ++k) shape[k] = file.number({fmt::format("Tw{}M{}Sh({})", plane, mode, k + 2)});
+  double own = 0.0;  // mass of the mode
   slice(mass, length, [&](double part, double share) {
-    double shape = 0.0;
-    for (int power = 2; power <= 6; ++power)
-      shape += file.number({fmt::format("Tw{}M{}Sh({})", plane, mode, power)}) * std::pow(share, power);
-    own += part * shape * shape;
+    double sway = 0.0;
+    for (std::size_t k = shape.size(); k-- > 0;) sway = sway * share + shape[k];
+    own += part * std::pow(sway * share * share, 2);
   });
   return 0.01 * file.number({fmt::format("Twr{}Dmp({})", plane, mode)}, 0.0) * std::sqrt(own / (own + top));
 }
@@ -303,18 +305,15 @@ std::size_t heading_of(const Deck& file, std::size_t from, const std::string& fi
   file.fail(std::nullopt, "has no table that begins with " + first_word);
 }
 
-bool is_rule(const Deck& file, std::size_t line) {
-  const auto& words = file.words(line);
-  return words.empty() || words[0].find("---") != std::string::npos || words[0].find("===") != std::string::npos;
-}
-
 /// Words of a row of points: those of its heading, name, kind and place at least.
 std::size_t words_of_point(const Deck& file, std::size_t heading) { return std::max<std::size_t>(5, file.words(heading).size()); }
 
-/// Rows of a table until the next rule.
+/// A table has ended: at the next rule, or at a line without words.
+bool ends_table(const Deck& file, std::size_t line) { return file.words(line).empty() || file.is_rule(line); }
+
 template <class Row>
 void each_row(const Deck& file, std::size_t heading, const Row& row) {
-  for (std::size_t n = heading + 2; n < file.size() && !is_rule(file, n); ++n) row(n, file.words(n));
+  for (std::size_t n = heading + 2; n < file.size() && !ends_table(file, n); ++n) row(n, file.words(n));
 }
 
 std::string in_lower_case(std::string word) {
@@ -489,7 +488,8 @@ bool has_one_of(const std::string& text, std::initializer_list<const char*> word
 /// Tables of MoorDyn that no scene has: rods, loads from outside, lines that a controller moves or that break.
 void note_other_tables(const Deck& file, const std::string& name, std::vector<std::string>& left_out) {
   for (std::size_t n = 0; n + 3 < file.size(); ++n) {
-    if (!is_rule(file, n) || is_rule(file, n + 1) || is_rule(file, n + 2) || is_rule(file, n + 3)) continue;
+    if (!file.is_rule(n) || std::ranges::any_of(std::array{1, 2, 3}, [&](std::size_t k) { return ends_table(file, n + k); }))
+      continue;
     std::string title = title_of(file, n);
     if (has_one_of(title, {"LINE", "POINT", "CONNECTION", "BOD", "OPTIONS", "OUTPUT", "INPUT"})) continue;
     std::erase_if(title, [](char c) { return c == '-' || c == '='; });
@@ -517,7 +517,7 @@ ImportedMoorings read_moordyn(const Deck& file, double depth, std::vector<std::s
   note_options(file, file_name, depth, left_out);
   const auto section_if = [&](std::initializer_list<const char*> words) -> std::optional<std::size_t> {
     for (std::size_t n = 0; n + 1 < file.size(); ++n)
-      if (is_rule(file, n) && has_one_of(title_of(file, n), words)) {
+      if (file.is_rule(n) && has_one_of(title_of(file, n), words)) {
         const auto& next = file.words(n + 1);  // before OpenFAST 3.3 the number of rows: "3 NLines"
         const bool counts = next.size() > 1 && number_in(next[0]) && in_lower_case(next[1]).rfind("n", 0) == 0;
         return n + (counts ? 2 : 1);

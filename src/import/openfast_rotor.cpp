@@ -90,6 +90,8 @@ std::string unsteady_flow(DeckImport& run, const Deck& ad, const WrittenTurbine&
       run.leave_out(fmt::format("what the dynamic stall model of UA_Mod {} has beside {}{}", model,
                                 leishman ? "Beddoes and Leishman's" : "Oye's",
                                 model <= 3 ? ": time constants that change within a stall, of each polar" : ""));
+    run.leave_out_unless(ad, {{"UAStartRad", "sections stall dynamically from the root on"},
+                              {"UAEndRad", "sections stall dynamically up to the tip", 1.0}});
     run.carry(leishman ? "dynamic stall after Beddoes and Leishman" : "dynamic stall after Oye");
   }
   return text;
@@ -152,6 +154,15 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
               {"InCol_Cd", 1, 100},
               {"InCol_Cm", 0, 100},
               {"NumAFfiles", 1, 1e5}});
+  for (const auto& [key, what] : {std::pair{"TFinAero", "the tail fin"}, std::pair{"NacelleDrag", "drag of the nacelle"}})
+    if (ad.flag({key}, false)) run.leave_out(fmt::format("{}: {}", key, what));
+  const auto blade_file = [&](int blade) {
+    const std::string key = fmt::format("ADBlFile({})", blade);
+    return ad.has(key) ? ad.text({key}) : std::string();
+  };
+  for (int b = 2; b <= rotor.blades; ++b)
+    if (const std::string file = blade_file(b); !file.empty() && file != blade_file(1))
+      run.leave_out(fmt::format("ADBlFile({}) {}: all blades are the first", b, file));
   WrittenTurbine turbine = write_turbine(ad, rotor, run.folder);
   for (std::string& what : turbine.left_out) run.leave_out(std::move(what));
   std::string text = import_wind(run, Deck(run.main.path({"InflowFile"})), rotor.hub.z());

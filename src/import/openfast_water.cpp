@@ -205,6 +205,10 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density) 
   refuse_unknown_water(hd, waves);
   const bool potential = hd.integer({"PotMod"}, 0) == 1;
   if (hd.integer({"PotMod"}, 0) == 2) run.leave_out("FIT (PotMod 2)");
+  run.leave_out_unless(
+      hd, {{"PtfmRefY", "the yaw about which the loads are taken"}, {"AMMod", "the height up to which added mass counts"}});
+  if (waves.flag({"WaveNDAmp"}, false))
+    run.leave_out("WaveNDAmp: amplitudes of a sea state that are drawn by lot; they follow the spectrum");
   const bool still = wave_model(waves) == 0;
 
   const std::vector<Member> all = read_members(hd, depth, potential, run.left_out);

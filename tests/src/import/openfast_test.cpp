@@ -111,6 +111,12 @@ struct SmallDeck {
     REQUIRE(text.find(from) != std::string::npos);
     text.replace(text.find(from), from.size(), to);
   }
+  /// Pitch and torque are those of a library.
+  void turn_by_library() {
+    replace("main.fst", "0 CompServo", "1 CompServo");
+    replace("ed.dat", "False GenDOF", "True GenDOF");
+    replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  }
   decks::Imported import(decks::ImportedTower tower = decks::ImportedTower::as_in_deck,
                          decks::ImportedLines lines = decks::ImportedLines::as_in_deck) const {
     std::filesystem::remove_all(folder);
@@ -413,9 +419,7 @@ TEST_CASE("stiffness tuned by modes is the beam's where it is one", "[import][fa
 
 TEST_CASE("a nacelle with a rotor that a controller turns is a body that can be", "[import][fast]") {
   SmallDeck deck = deck_that_bends();
-  deck.replace("main.fst", "0 CompServo", "1 CompServo");
-  deck.replace("ed.dat", "False GenDOF", "True GenDOF");
-  deck.replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  deck.turn_by_library();
   CHECK(deck.refusal().empty());
 }
 
@@ -1097,9 +1101,7 @@ TEST_CASE("outlines of a deck's sections are the turbine's, so that its blades c
 
 TEST_CASE("a controller library of a deck is the scene's, with its drive train and its numbers", "[import][fast]") {
   SmallDeck deck;
-  deck.replace("main.fst", "0 CompServo", "1 CompServo");
-  deck.replace("ed.dat", "False GenDOF", "True GenDOF");
-  deck.replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  deck.turn_by_library();
   deck.files["lib.so"] = "none", deck.files["DISCON.IN"] = "1.0";
   const decks::Imported imported = deck.import();
   scene::Document document = scene::load(imported.scene.string(), {"control.library='" SPINDRIFT_TEST_CONTROLLER "'"});
@@ -1266,9 +1268,7 @@ SmallDeck deck_with_all() {
   SmallDeck deck = deck_that_bends();
   deck.replace("ed.dat", "False FlapDOF1", "True FlapDOF1");
   deck.replace("blade.dat", "0 0 300 1 1\n1 0 100 1 1\n", "0 9 300 1e9 3e9\n1 0 100 1e7 1e8\n");
-  deck.replace("main.fst", "0 CompServo", "1 CompServo");
-  deck.replace("ed.dat", "False GenDOF", "True GenDOF");
-  deck.replace("srv.dat", "0 PCMode\n0 VSContrl", "5 PCMode\n5 VSContrl");
+  deck.turn_by_library();
   deck.files["lib.so"] = "none", deck.files["DISCON.IN"] = "1.0";
   return deck;
 }
