@@ -228,6 +228,11 @@ AirSide::Account MarchingAir::account() const {
   return account;
 }
 
+std::string MarchingAir::failure_at_end() const {
+  const std::string walls = unresolved_walls(*solver_, scenario(), world_);
+  return walls.empty() ? walls : "air: " + walls;
+}
+
 void MarchingAir::write_span() { coupling::write_span(world_, span_loads(), *directory_); }
 
 }  // namespace spindrift::coupling

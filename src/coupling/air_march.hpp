@@ -41,6 +41,7 @@ class MarchingAir : public AirSide {
   void write_span() final;
   void end_window() final;
   Account account() const final;
+  std::string failure_at_end() const final;
   std::vector<std::string> log_lines() final { return std::exchange(log_lines_, {}); }
 
  protected:

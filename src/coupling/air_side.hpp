@@ -89,6 +89,8 @@ class AirSide {
     std::vector<std::string> doubts, sentences;
   };
   virtual Account account() const { return {}; }
+  /// Why its loads are no answer, of the run at its end; empty where they are. Collective.
+  virtual std::string failure_at_end() const { return {}; }
   /// Sentences for the log since it was last asked; those that begin with "warning: " warn.
   virtual std::vector<std::string> log_lines() { return {}; }
 };

@@ -187,6 +187,12 @@ class SharedAir final : public AirSide {
         });
     return account;
   }
+  std::string failure_at_end() const override {
+    std::string failure;
+    broadcast_from(
+        parts_, air_part, [&](Packer& to) { put(to, own_->failure_at_end()); }, [&](Unpacker& from) { failure = text(from); });
+    return failure;
+  }
   std::vector<std::string> log_lines() override { return std::exchange(log_lines_, {}); }
 
  private:

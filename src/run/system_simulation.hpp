@@ -36,6 +36,7 @@ class SystemSimulation final : public Simulation {
   void fill_row(std::int64_t window, std::span<double> row) override;
   std::vector<std::unique_ptr<Output>> outputs(const io::RunDirectory& directory, double resume_s) override;
 
+  std::string failure_at_end() const override { return window_.sides().air().failure_at_end(); }
   void summarise(io::Summary& summary, runtime::Ledger& ledger) override;
 
  private:

@@ -286,13 +286,16 @@ class SystemRun(System):
         self.assertIn("went beyond the bounds of", page)
         self.assertIn(f"shortened windows: {limited}", page)
 
-    def test_first_cells_that_are_too_coarse_are_told_at_the_end(self):
+    def test_first_cells_that_are_too_coarse_end_the_run_as_no_answer(self):
         sticks = ["aero.flow.viscous='thin_layer'", "aero.flow.turbulence='sa'", "aero.flow.blades='no_slip'", "time.end_s=0.1"]
         for text, name, settings, ranks in ((ENGINEERING, "shared", sticks, 1), (PARTICLES, "split", [*sticks, *self.SPLIT], 2)):
-            self.spindrift(text, name, settings=settings, ranks=ranks)
-            told = json.loads((self.path / name / "summary.json").read_text())["numerical_trouble"]
-            self.assertEqual([words for words in told if words.startswith("air: y+ of first cells is ")], told[:1], told)
-            self.assertIn(f"warning  {told[0]}", (self.path / name / "log.txt").read_text())
+            self.spindrift(text, name, settings=settings, ranks=ranks, code=3)
+            summary = json.loads((self.path / name / "summary.json").read_text())
+            told = [words for words in summary["numerical_trouble"] if words.startswith("air: y+ of first cells is ")]
+            self.assertEqual(told[0], summary["exit_reason"])
+            self.assertIn("the loads are no answer", told[0])
+            self.assertIn("friction is not to be trusted", told[1])
+            self.assertIn(f"warning  {told[1]}", (self.path / name / "log.txt").read_text())
         self.spindrift(ENGINEERING, "slides", settings=["time.end_s=0.1"])
         self.assertEqual(json.loads((self.path / "slides/summary.json").read_text())["numerical_trouble"], [])
 
