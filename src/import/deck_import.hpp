@@ -1,5 +1,5 @@
 // What all parts of an import from OpenFAST share: the main file, the scene's folder, and the list of what was taken and what
-// was left. Used by openfast.cpp and the sections (openfast_sections.hpp); tested in tests/src/import/openfast_test.cpp.
+// was left. Used by openfast.cpp and the sections (openfast_sections.hpp); tested in tests/src/import.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 // Members of a HydroDyn file: cylinders of the floater with drag and added mass of their own, and the ballast within them.
-// Called by openfast_water.cpp; tested in tests/src/import/openfast_test.cpp. SPDX-License-Identifier: Apache-2.0
+// Called by openfast_water.cpp; tested in tests/src/import. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/import/deck.hpp"
-#include "src/import/openfast_parts.hpp"
+#include "src/import/elastodyn.hpp"
 
 namespace spindrift::decks {
 

@@ -1,5 +1,5 @@
 // A scene from an OpenFAST deck (versions 3 to 5): turbine, polars, platform, potential flow or strips, lines, waves, wind.
-// Called by src/app/import.cpp; tested in tests/src/import/openfast_test.cpp.
+// Called by src/app/import.cpp; tested in tests/src/import.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

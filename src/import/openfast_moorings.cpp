@@ -5,11 +5,46 @@
 #include <algorithm>
 
 #include "kernels/base/constants.hpp"
+#include "src/import/line_files.hpp"
 #include "src/import/openfast_sections.hpp"
 
 namespace spindrift::decks {
 
 namespace {
+
+/// Lines from the bed to the platform without a branch, and the points between them, as indices; a line alone is one.
+struct ImportedRow {
+  std::vector<std::size_t> lines, points;  ///< from the anchor up
+};
+/// In the order of their first lines. Lines that are in none meet at a point with others, or hang on the bed or the platform at
+/// both ends.
+std::vector<ImportedRow> rows_of(const ImportedMoorings& moorings) {
+  const std::vector<ImportedLine>& lines = moorings.lines;
+  const auto at = [&](std::size_t l, const std::string& name) {
+    return lines[l].at_anchor == name || lines[l].at_fairlead == name;
+  };
+  std::vector<ImportedRow> found;
+  for (std::size_t first = 0; first < lines.size(); ++first) {
+    if (!lines[first].at_anchor.empty()) continue;
+    ImportedRow row{{first}, {}};
+    std::string end = lines[first].at_fairlead;
+    while (!end.empty()) {
+      std::vector<std::size_t> others;
+      for (std::size_t l = 0; l < lines.size(); ++l)
+        if (l != row.lines.back() && at(l, end)) others.push_back(l);
+      if (others.size() != 1) break;
+      const ImportedLine& next = lines[others[0]];
+      const bool upwards = next.at_anchor == end;
+      if (!upwards && next.at_anchor.empty()) break;  // down to the bed again
+      for (std::size_t p = 0; p < moorings.junctions.size(); ++p)
+        if (moorings.junctions[p].name == end) row.points.push_back(p);
+      row.lines.push_back(others[0]);
+      end = upwards ? next.at_fairlead : next.at_anchor;
+    }
+    if (end.empty()) found.push_back(row);
+  }
+  return found;
+}
 
 double weight_in_water(const ImportedLine& l, const ImportedEnvironment& e) {
   return e.gravity * (l.mass_per_m - e.water_density * 0.25 * pi * l.diameter * l.diameter);

@@ -8,6 +8,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "src/import/openfast_sections.hpp"
+#include "src/import/openfast_turbine.hpp"
 
 namespace spindrift::decks {
 

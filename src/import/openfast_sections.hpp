@@ -1,5 +1,5 @@
 // Sections of a scene from the files of an OpenFAST deck, as text; files that they name are written into the scene's folder.
-// Called by openfast.cpp in the order in which a reader is told of them; tested in tests/src/import/openfast_test.cpp.
+// Called by openfast.cpp in the order in which a reader is told of them; tested in tests/src/import.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "src/import/deck_import.hpp"
+#include "src/import/elastodyn.hpp"
 #include "src/import/openfast.hpp"
-#include "src/import/openfast_parts.hpp"
 
 namespace spindrift::decks {
 

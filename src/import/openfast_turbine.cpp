@@ -1,4 +1,6 @@
-// AeroDyn's blade and aerofoil files as a turbine file. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
+#include "src/import/openfast_turbine.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/grid/aerofoil.hpp"
-#include "src/import/openfast_parts.hpp"
 
 namespace spindrift::decks {
 

@@ -1,5 +1,5 @@
-// Parts of an OpenFAST deck as plain values: masses, blades with polars, lines. Used by the files openfast_*; tested in
-// tests/src/import/openfast_test.cpp. SPDX-License-Identifier: Apache-2.0
+// What ElastoDyn, and BeamDyn for its blades, say of the turbine as plain values: masses, tower, blades. Tested in
+// tests/src/import. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <Eigen/Core>
@@ -66,50 +66,5 @@ ImportedBending blade_bending(const Deck& elastodyn, const RotorFrame& rotor, st
 /// About the shaft [kg m2]: blades and hub; the generator.
 double rotor_inertia(const Deck& elastodyn, const RotorFrame& rotor);
 double generator_inertia(const Deck& elastodyn);
-
-struct WrittenTurbine {
-  std::vector<std::string> left_out;
-  bool by_reynolds = false;     ///< some polar depends on the Reynolds number
-  double separation_lag = 3.0;  ///< in half chords, of the outermost aerofoil file with stall (T_f0)
-  bool lags_differ = false;     ///< between files
-};
-/// Writes planform, polars and turbine.toml.
-WrittenTurbine write_turbine(const Deck& aerodyn, const RotorFrame& rotor, const std::filesystem::path& folder);
-
-struct ImportedLine {
-  Eigen::Vector3d anchor, fairlead;
-  double length = 0.0, diameter = 0.0, mass_per_m = 0.0, axial_stiffness = 0.0, bed_friction = 0.0;
-  bool meets_bed = true;  ///< at the level of its anchor, if it has one; false: MAP++'s OMIT_CONTACT
-  /// Of MoorDyn's lines, which are dynamic: keys beyond those above, as a scene has them.
-  struct Dynamics {
-    int segments = 20;
-    double damping_ratio = 1.0, drag = 0.0, axial_drag = 0.0, added_mass = 0.0, axial_added_mass = 0.0;
-    double bed_stiffness = 3e6, bed_damping = 3e5;
-  };
-  std::optional<Dynamics> dynamics{};
-  std::string at_anchor{}, at_fairlead{};  ///< names of junctions; empty: the bed, the platform
-};
-/// A point free in the water at which lines end.
-struct ImportedJunction {
-  std::string name;
-  Eigen::Vector3d at;
-  double mass = 0.0, volume = 0.0, drag_area = 0.0, added_mass = 0.0;
-};
-struct ImportedMoorings {
-  std::vector<ImportedLine> lines;
-  std::vector<ImportedJunction> junctions;
-};
-/// Lines of MAP++ are in rest at all times.
-ImportedMoorings read_map(const Deck& file, double water_depth, std::vector<std::string>& left_out);
-/// A file without its comments.
-ImportedMoorings read_moordyn(const Deck& file, double water_depth, std::vector<std::string>& left_out);
-
-/// Lines from the bed to the platform without a branch, and the points between them, as indices; a line alone is one.
-struct ImportedRow {
-  std::vector<std::size_t> lines, points;  ///< from the anchor up
-};
-/// In the order of their first lines. Lines that are in none meet at a point with others, or hang on the bed or the platform at
-/// both ends.
-std::vector<ImportedRow> rows_of(const ImportedMoorings& moorings);
 
 }  // namespace spindrift::decks
