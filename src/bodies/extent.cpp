@@ -29,17 +29,7 @@ std::vector<Eigen::AlignedBox3d> pieces(const BodyOptions& body) {
 
 Eigen::AlignedBox3d bounds(const BodyOptions& body) {
   Eigen::AlignedBox3d box;
-  for (const CylinderOptions& c : body.cylinders)
-    for (const Eigen::Vector3d& end : {c.start_m, c.end_m}) {
-      const double radius = 0.5 * std::max(c.diameter_m, c.end_diameter_m.value_or(c.diameter_m));
-      box.extend(end + Eigen::Vector3d::Constant(radius)), box.extend(end - Eigen::Vector3d::Constant(radius));
-    }
-  for (const BoxOptions& b : body.boxes) box.extend(b.centre_m + 0.5 * b.size_m), box.extend(b.centre_m - 0.5 * b.size_m);
-  for (const scene::MeshOptions& m : body.meshes)
-    if (m.surface) box.extend(m.surface->box());
-  for (const SphereOptions& s : body.spheres)
-    box.extend(s.centre_m + Eigen::Vector3d::Constant(0.5 * s.diameter_m)),
-        box.extend(s.centre_m - Eigen::Vector3d::Constant(0.5 * s.diameter_m));
+  for (const Eigen::AlignedBox3d& piece : pieces(body)) box.extend(piece);
   return box;
 }
 

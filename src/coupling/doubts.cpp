@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -496,7 +497,8 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (wavy && s.time.window_s > s.waves.period_s / 8.0 && s.has_rotor() && s.coupling.scheme != SchemeKind::monolithic)
     doubts.push_back({"time.window_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.window_s, s.waves.period_s),
                       "up to an eighth of the period", "rotor and platform exchange loads once a window"});
-  if (wavy && s.time.step() > s.waves.period_s / 8.0)
+  const bool own_steps = s.has_particles() && !s.time.step_s;  // those of the particles
+  if (wavy && !own_steps && s.time.step() > s.waves.period_s / 8.0)
     doubts.push_back({"time.step_s", fmt::format("{:.4g} s under waves of {:.4g} s", s.time.step(), s.waves.period_s),
                       "up to an eighth of the period", "the steps do not see the wave"});
   if (wavy && s.time.window_s * s.output.history_every > s.waves.period_s / 4.0)
@@ -636,6 +638,18 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
 }
 
 /// The axes of a boundary-element code begin at its body.
+void doubt_memory(scene::Doubts& doubts, const FloatingSystem& floating) {
+  constexpr double most = 0.05;
+  constexpr std::array modes{"surge", "sway", "heave", "roll", "pitch", "yaw"};
+  if (!floating.sea() || !floating.scenario().sea.potential) return;
+  const sea::PotentialBody::Cut cut = floating.sea()->memory_cut();
+  if (cut.share > most)
+    doubts.push_back({"sea.potential.memory_s",
+                      fmt::format("{:.4g} s, where the water's memory of {} is at {:.2g} of its largest",
+                                  floating.scenario().sea.potential->memory_s, modes[std::size_t(cut.mode)], cut.share),
+                      fmt::format("so long that {:g} is left", most), "the water forgets waves that are still there"});
+}
+
 void doubt_origin(scene::Doubts& doubts, const Scenario& s) {
   if (!s.sea.potential) return;
   const auto body = std::ranges::find(s.bodies, s.sea.potential->body, &scene::Named<bodies::BodyOptions>::name);
@@ -699,6 +713,7 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
   std::set<std::string> told;
   for (const Scenario& one : by_rotor(s)) append(all, rotor_file_doubts(one, told));
   doubt_times(all, floating);
+  doubt_memory(all, floating);
   return all;
 }
 

@@ -596,6 +596,11 @@ Scenario read_scenario(scene::Document& document) {
   };
   const std::vector<sea::SeaBody> wetted = sea_bodies(s.bodies);
   report(sea_problems(s.sea, s.waves, wetted));
+  if (s.has_sea() && s.moorings.empty() && s.junctions.empty() &&
+      std::ranges::all_of(wetted, [](const sea::SeaBody& b) { return b.cylinders.empty(); }))
+    for (const auto& [key, given] : {std::pair{"sea.current_m_s", !s.sea.current_m_s.isZero(0.0)},
+                                     std::pair{"sea.current_profile", !s.sea.current_profile.empty()}})
+      if (given) document.problem(key, "has no effect: no body has [[bodies.NAME.cylinders]], and there are no [moorings]");
   if (s.has_sea() && !s.has_particles()) report(shape_problems(sea_environment(s.environment), wetted));
   if (s.has_particles() && s.sea.particles && s.sea.tank) check_particles(document, s);
   if (s.has_waves()) report(wave_problems(s.waves, sea_environment(s.environment)));

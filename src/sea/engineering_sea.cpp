@@ -112,8 +112,12 @@ void add_morison(const Strip& strip, const WettedStrip& wet, double density, con
   const Coefficients& c = strip.coefficients;
   Eigen::Vector3d first_acceleration, first_arm, change = Eigen::Vector3d::Zero();  // of the water, a metre along the axis
   double second_moment = 0.0;                                                       // of the sections, summed along the axis
+  // Sections that are partly wet, the last two of the stations: where their water is beside the axis, and what moves it.
+  Eigen::Vector3d aside = wet.wetted.first_moment, pushed = Eigen::Vector3d::Zero();
+  double partly_wet = 0.0;
   const Eigen::Matrix3d along = wet.axis * wet.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  for (const Station& s : std::span(wet.stations).first(wet.count)) {
+  for (std::size_t n = 0; n < wet.count; ++n) {
+    const Station& s = wet.stations[n];
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
     if (second_moment == 0.0) first_acceleration = k.acceleration, first_arm = s.arm;
@@ -121,16 +125,20 @@ void add_morison(const Strip& strip, const WettedStrip& wet, double density, con
     second_moment += 0.25 * s.volume * s.radius * s.radius;
     const double projected = 2.0 * s.volume / (pi * s.radius), added = c.added_mass * density * s.volume;
     add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), wet.axis), s.arm);
+    const Eigen::Vector3d wave =
+        scattered.empty() ? k.acceleration : along * k.acceleration + across * water.scattered(s.arm, scattered);
+    aside -= s.volume * s.arm;
+    if (n + 2 >= wet.count) pushed += s.volume * wave, partly_wet += s.volume;
     if (scattered.empty()) {
       const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
-      add_at(loads.inertia, density * s.volume * k.acceleration + added * waves::across(relative, wet.axis), s.arm);
+      add_at(loads.inertia, density * s.volume * wave + added * waves::across(relative, wet.axis), s.arm);
     } else {
-      const Eigen::Vector3d wave = along * k.acceleration + across * water.scattered(s.arm, scattered);
       add_at(loads.inertia, density * s.volume * wave - added * waves::across(body.centripetal_at(s.arm), wet.axis), s.arm);
     }
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
   loads.inertia.moment -= density * second_moment * wet.axis.cross(change);
+  if (partly_wet > 0.0) loads.inertia.moment += density * aside.cross(pushed / partly_wet);
   for (std::size_t i = 0; i < strip.ends.size(); ++i) {
     const WettedEnd& e = wet.ends[i];
     const ExposedEnd& end = strip.ends[i];
@@ -324,6 +332,12 @@ void EngineeringSea::add(double t, std::span<const Motion> bodies, std::span<Wre
     if (wrenches.empty()) continue;
     for (const Wrench* w : {&loads.buoyancy, &loads.inertia, &loads.drag, &loads.damping, &loads.potential}) wrenches[i] += *w;
   }
+}
+
+PotentialBody::Cut EngineeringSea::memory_cut() const {
+  for (const BodyStrips& body : bodies_)
+    if (body.potential) return body.potential->cut();
+  return {};
 }
 
 std::size_t EngineeringSea::memory_size() const {

@@ -71,6 +71,9 @@ class EngineeringSea {
   const WaveField& waves() const { return waves_; }
   bool has_added_mass() const { return strips_load_; }
 
+  /// Of the body in potential flow; none without it.
+  PotentialBody::Cut memory_cut() const;
+
   // What the water remembers, as bodies::Memory has it.
   std::size_t memory_size() const;
   void begin(double t, std::span<const Motion> bodies, std::span<double> memory) const;

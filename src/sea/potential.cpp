@@ -163,6 +163,7 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
       if (!remembers) continue;
       RetardationSeries series{i, j, std::vector<double>(steps + 1)};
       for (std::size_t n = 0; n <= steps; ++n) series.values[n] = waves::retardation(radiation.omega, damping, double(n) * step_);
+      if (i == j) note_cut(i, series.values);
       from_memory(i, j) = waves::infinite_added_mass(from_memory(i, j), radiation.omega[last], series.values, step_);
       all.push_back(std::move(series));
     }
@@ -192,6 +193,17 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
     if (!fit.poles.pole.empty()) fits.push_back(std::move(fit));
   }
   memory_.emplace<StateSpaceMemory>(std::move(fits));
+}
+
+/// By the last tenth of the memory, which may swing.
+void PotentialBody::note_cut(int mode, std::span<const double> values) {
+  const auto largest = [](std::span<const double> some) {
+    double most = 0.0;
+    for (const double k : some) most = std::max(most, std::abs(k));
+    return most;
+  };
+  const double whole = largest(values), end = largest(values.last(values.size() / 10 + 1));
+  if (end > cut_.share * whole) cut_ = {mode, end / whole};
 }
 
 std::size_t PotentialBody::states() const {

@@ -48,11 +48,18 @@ class PotentialBody {
   void remember(double t, const Motion& motion, std::span<double> memory) const;
 
   const Matrix6& infinite_added_mass() const { return infinite_; }
+  /// What the memory's end cuts off: the mode whose memory of itself is largest there, over its largest value.
+  struct Cut {
+    int mode = 0;
+    double share = 0.0;
+  };
+  const Cut& cut() const { return cut_; }
   /// Numbers that a fitted state space has; 0 of the others.
   std::size_t states() const;
 
  private:
   void make_radiation(const PotentialOptions& options, const WamitRadiation& file);
+  void note_cut(int mode, std::span<const double> memory);
 
   SeaEnvironment environment_;
   Motion initial_;
@@ -67,6 +74,7 @@ class PotentialBody {
   std::vector<Exciting> exciting_;
   std::optional<SecondOrderLoads> second_order_;
   double step_;
+  Cut cut_;
   std::variant<std::monostate, ConvolutionMemory, StateSpaceMemory> memory_;
   bool recalled_ = false;
 };

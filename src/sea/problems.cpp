@@ -105,6 +105,14 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
   if (cylinders.empty() && needs_cylinders)
     problems.push_back(
         {"sea.model", "is '" + options.model + "', but no body has [[bodies.NAME.cylinders]] for the water to act on"});
+  if (cylinders.empty() && !needs_cylinders) {
+    const SeaOptions plain;
+    for (const auto& [key, asked] :
+         {std::pair{"drag_coefficient", options.drag_coefficient != plain.drag_coefficient},
+          std::pair{"axial_drag_coefficient", options.axial_drag_coefficient != plain.axial_drag_coefficient},
+          std::pair{"strip_length_m", options.strip_length_m != plain.strip_length_m}})
+      if (asked) problems.push_back({std::string("sea.") + key, "has no effect: no body has [[bodies.NAME.cylinders]]"});
+  }
   if (options.model == "hydrostatic" && waves.model != "none")
     problems.push_back(
         {"waves.model", "is '" + waves.model + "', but sea.model 'hydrostatic' knows still water only; use 'morison'"});

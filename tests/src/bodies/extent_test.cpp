@@ -57,6 +57,16 @@ TEST_CASE("a nacelle on a flexible tower does not fall into the water", "[bodies
   CHECK(entry_speed(ball(100.0), {}, beams, gravity) == 0.0);
 }
 
+TEST_CASE("the box about a cylinder is that of its discs", "[bodies][fast]") {
+  BodyOptions body;
+  body.cylinders = {{.start_m = {0, 0, -10}, .end_m = {0, 0, 20}, .diameter_m = 8.0, .end_diameter_m = 4.0}};
+  CHECK(bounds(body).min().isApprox(Vector3d(-4, -4, -10)));
+  CHECK(bounds(body).max().isApprox(Vector3d(4, 4, 20)));
+  body.cylinders[0].end_m = {30, 0, -10};
+  CHECK(bounds(body).min().isApprox(Vector3d(0, -4, -14)));
+  CHECK(bounds(body).max().isApprox(Vector3d(30, 4, -6)));
+}
+
 TEST_CASE("a rotor that turns on a platform does not count", "[bodies][fast]") {
   NamedBodies bodies = ball(0.0);
   BodyOptions rotor;

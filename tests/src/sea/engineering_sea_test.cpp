@@ -368,6 +368,31 @@ TEST_CASE("waves that run past a wide float turn it by their slope at its keel",
   CHECK(w.moment.y() == Approx(force * arm + keel).epsilon(2e-3));
 }
 
+TEST_CASE("water turns no round member about its own axis, however wet it is", "[sea][fast]") {
+  WavesOptions waves;
+  waves.model = "airy", waves.height_m = 0.2, waves.period_s = 12.0;
+  const SeaEnvironment deep{1025.0, 400.0, 9.81};
+  const double radius = 2.5, half_length = 10.0, k = waves::wave_properties(12.0, 400.0, 9.81).wave_number;
+  SeaOptions inviscid = model("morison");
+  inviscid.drag_coefficient = inviscid.axial_drag_coefficient = 0.0;
+  // Pressure is square to a round wall, so either part alone turns it and both together do not, but for what waves change by
+  // over a radius: k R.
+  for (const double height : {-1.5, 0.0, 1.5})
+    for (const Vector3d& axis : {Vector3d(0, 1, 0), Vector3d(0.5, std::sqrt(0.75), 0), Vector3d(0, 0.9, std::sqrt(0.19))}) {
+      const Vector3d half = half_length * axis;
+      const EngineeringSea sea(inviscid, waves, deep, {{"tube", {}, {{"tube", {-half, half, radius, radius}}}}});
+      double both = 0.0, one = 0.0;
+      for (const double t : {0.0, 1.5, 3.0, 4.5, 6.0}) {
+        const SeaLoads loads = parts(sea, at(0, 0, height), t);
+        both = std::max(both, std::abs(axis.dot(loads.buoyancy.moment + loads.inertia.moment)));
+        one = std::max(one, std::abs(axis.dot(loads.buoyancy.moment)));
+      }
+      INFO("axis " << axis.transpose() << " at " << height << " m");
+      CHECK(one > 1000.0);  // N m
+      CHECK(both < k * radius * one);
+    }
+}
+
 TEST_CASE("in long waves a float follows the surface: the loads give it just the acceleration of the water", "[sea][fast]") {
   // A buoy that moves and leans with the water needs force = mass (g + a) and no moment. Relative residual: of the order of k T
   // and k R.
@@ -463,6 +488,25 @@ TEST_CASE("names that do not exist and options without effect are told", "[sea][
   CHECK(problems[1].what.find("known: float_1, float_2, float_3") != std::string::npos);
   CHECK(problems[2].key == "sea.damping[0].body");
   CHECK(sea_problems(model("morison"), {}, {SeaBody{"rotor", {}, {}}}).size() == 1);
+}
+
+TEST_CASE("coefficients of strips have no effect in potential flow without cylinders", "[sea][fast]") {
+  SeaOptions options = model("potential");
+  options.potential.emplace().body = "hull";
+  options.potential->hydrostatics_file = "hull.hst";
+  const auto keys = [&](const SeaBody& hull) {
+    std::vector<std::string> found;
+    for (const OptionProblem& p : sea_problems(options, {}, {hull}))
+      if (p.what.rfind("has no effect", 0) == 0) found.push_back(p.key);
+    return found;
+  };
+  CHECK(keys({"hull", {}, {}}).empty());
+  options.drag_coefficient = 1.2, options.axial_drag_coefficient = 0.5, options.strip_length_m = 2.0;
+  CHECK(keys({"hull", {}, {}}) ==
+        std::vector<std::string>{"sea.drag_coefficient", "sea.axial_drag_coefficient", "sea.strip_length_m"});
+  SeaBody spar_hull = spar(-10.0, 5.0, 1.0);
+  spar_hull.name = "hull";
+  CHECK(keys(spar_hull).empty());
 }
 
 TEST_CASE("a cylinder below the sea bed or without length is told", "[sea][fast]") {

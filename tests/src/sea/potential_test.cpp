@@ -152,6 +152,24 @@ TEST_CASE("a memory that 24 poles cannot follow is refused by its modes", "[sea]
   CHECK_THROWS_WITH(PotentialBody(options, {density, 100.0, 10.0}, Motion{}, {}, 0.05), Catch::Contains("modes 3 and 3"));
 }
 
+TEST_CASE("what the end of the memory cuts off is known by its mode", "[sea][fast]") {
+  const Files files;
+  PotentialOptions options = files.options();
+  const auto cut = [&](double memory_s) {
+    options.memory_s = memory_s;
+    return PotentialBody(options, {density, 100.0, 10.0}, {}, {}, 0.05).cut();
+  };
+  CHECK(cut(60.0).share < 1e-3);
+  // K / k is cos bt - a/b sin bt by exp(-a t): at most hypot(1, a/b) exp(-a t) over the last tenth, where it swings once at most.
+  const double swing = std::hypot(1.0, a / b);
+  for (const double memory : {6.0, 12.0}) {
+    const PotentialBody::Cut found = cut(memory);
+    CHECK(found.mode == 2);
+    CHECK(found.share < swing * std::exp(-a * 0.9 * memory));
+    CHECK(found.share > 0.5 * swing * std::exp(-a * memory));
+  }
+}
+
 TEST_CASE("radiation that would give energy is refused by its mode, the noise of modes that have none is not", "[sea][fast]") {
   const auto refusal = [](int mode, double added_mass, double damping) {
     const Files files;
