@@ -194,12 +194,28 @@ void FreeVortexWake::add_velocities(std::span<const double> memory, double sense
   add_velocities(load(memory), sense, points, velocities);
 }
 
+/// Of the filaments on themselves, at the inner ends of their segments; far: as `State::far`.
+void FreeVortexWake::add_self_induction(const State& s, double sense, std::span<Vector3d> far) const {
+  for (std::size_t b = 0; b < blades_; ++b)
+    for (std::size_t line = 1; line < far_rows_; ++line) {
+      const double newer = sense * s.pairs[b * far_rows_ + line - 1], older = sense * s.pairs[b * far_rows_ + line];
+      const double radius = core(mean_chord_, s.age[near_rows_ + line], s.pairs[b * far_rows_ + line]);
+      for (const Side side : {root, tip}) {
+        const auto at = [&](std::size_t n) { return s.far[far_at(b, n, side)]; };
+        far[far_at(b, line, side)] += side == tip  // from the blade on; the root's comes back to it
+                                          ? self_induction({at(line - 1), at(line), at(line + 1)}, newer, older, radius)
+                                          : self_induction({at(line + 1), at(line), at(line - 1)}, older, newer, radius);
+      }
+    }
+}
+
 /// By the second-order step of Adams and Bashforth.
 void FreeVortexWake::convect(State& s, double sense, const Air& air, double h) const {
   std::vector<Vector3d> points = s.near, velocities;
   points.insert(points.end(), s.far.begin(), s.far.end());
   for (const Vector3d& p : points) velocities.push_back(air(p));
   add_velocities(s, sense, points, velocities);
+  add_self_induction(s, sense, std::span(velocities).subspan(s.near.size()));
   const double back = s.last_step > 0.0 ? 0.5 * h / s.last_step : 0.0;
   const std::size_t line_size = sections() + 1;
   for (std::size_t i = 0; i < points.size(); ++i) {

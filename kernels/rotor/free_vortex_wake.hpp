@@ -107,6 +107,7 @@ class FreeVortexWake {
   VortexTail tail(const State& s, double sense) const;
   void add_velocities(const State& s, double sense, std::span<const Eigen::Vector3d> points,
                       std::span<Eigen::Vector3d> velocities) const;
+  void add_self_induction(const State& s, double sense, std::span<Eigen::Vector3d> far) const;
   void convect(State& s, double sense, const Air& air, double h) const;
   void shift(State& s, const LiftingLines& blades, double h) const;
   /// Circulation of the newest row by the sections' lift; whether it was found.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -95,6 +96,31 @@ class VortexFilaments {
   std::vector<double> x_, y_, z_;        ///< ends [m]
   std::vector<double> strength_, core_;  ///< as add_segment has them, of the segment that ends there; none where a chain begins
 };
+
+/// Ends of two segments that follow each other, in the direction of positive circulation.
+struct FilamentBend {
+  Eigen::Vector3d before, here, after;  ///< [m]
+};
+
+/// What a curved filament induces on itself at `here` by the arc through its three points [m/s]: the segments, being straight,
+/// have none of it there. `circulation` [m2/s] of either arc; the core, of this radius [m], ends the logarithm where a ring with
+/// the core of Vatistas (n = 2) has the speed of Saffman (1992), section 10.2: Gamma/(4 pi R) (log(8 R/r_c) - 1/2). Bhagwat &
+/// Leishman (2014), J. Am. Helicopter Soc. 59, 1.
+inline Eigen::Vector3d self_induction(const FilamentBend& bend, double circulation_before, double circulation_after,
+                                      double core) {
+  const Eigen::Vector3d in = bend.here - bend.before, out = bend.after - bend.here, chord = bend.after - bend.before;
+  const Eigen::Vector3d across = in.cross(out);
+  const double twice_area = across.norm(), lengths = in.norm() * out.norm() * chord.norm();
+  constexpr double straight = 1e-6;  // angle between the segments
+  if (!(twice_area > straight * in.norm() * out.norm())) return Eigen::Vector3d::Zero();
+  const double radius = lengths / (2.0 * twice_area), cut = core / (8.0 * radius) * std::exp(0.5);
+  const auto arc = [&](double length) {  // log of tan(angle / 4) between core and end
+    const double half = std::min(1.0, 0.5 * length / radius), tangent = half / (1.0 + std::sqrt(1.0 - half * half));
+    return std::max(0.0, std::log(tangent / cut));
+  };
+  const double sum = circulation_before * arc(in.norm()) + circulation_after * arc(out.norm());
+  return sum / (8.0 * pi * radius) * (across / twice_area);
+}
 
 /// What lies beyond the end of a wake: a cylinder of vortex rings without end, which acts outside of itself as a sink spread over
 /// its mouth. Exact on its axis.

@@ -44,9 +44,9 @@ struct AeroOptions {
   // bem
   std::string induction = "madsen";
   std::string dynamic_inflow = "none", dynamic_stall = "none";
-  std::optional<double> inflow_time_s;                                                      ///< absent: by wind and induction
-  double wake_turns = 6.0, wake_step = 15.0 * radians_per_degree, wake_core_chords = 0.25;  ///< free_vortex; step [rad]
-  double stall_lag_chords = 4.0;                                                            ///< of dynamic stall after Oye
+  std::optional<double> inflow_time_s;                                                       ///< absent: by wind and induction
+  double wake_turns = 12.0, wake_step = 15.0 * radians_per_degree, wake_core_chords = 0.25;  ///< free_vortex; step [rad]
+  double stall_lag_chords = 4.0;                                                             ///< of dynamic stall after Oye
   double speed_of_sound_m_s = 340.0;               ///< of dynamic stall after Beddoes & Leishman
   std::optional<double> kinematic_viscosity_m2_s;  ///< for polars by Reynolds number; absent: air_kinematic_viscosity
   std::optional<TowerOptions> tower;
