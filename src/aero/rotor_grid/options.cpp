@@ -47,7 +47,8 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
           .integer("cells_outboard", &RotorGridOptions::cells_outboard, "-",
                    "Cells from the tip to the outer radius; default 8 n.", scene::between(3, 1000))
           .integer("cells_beside", &RotorGridOptions::cells_beside, "-",
-                   "Cells from the O to half-way to the next blade, each side; default 6 n.", scene::between(2, 1000))
+                   "Cells from the O to half-way to the next blade, each side; default 6 n, of two blades 9 n, of one 18 n.",
+                   scene::between(2, 1000))
           .integer("cells_upstream", &RotorGridOptions::cells_upstream, "-", "Cells from the O to the inflow; default 8 n.",
                    scene::between(2, 1000))
           .integer("cells_downstream", &RotorGridOptions::cells_downstream, "-", "Cells from the O to the outflow; default 9 n.",
@@ -101,6 +102,7 @@ RotorGridSpec rotor_grid_spec(const RotorGridOptions& o, const Turbine& turbine,
   RotorGridSpec spec;
   RotorGridSizes& s = spec.sizes;
   s = sizes_of(o.resolution);
+  if (turbine.blades < 3) s.beside = s.beside * 3 / turbine.blades;  // the next blade is farther off
   const int fit = 1 << o.coarsen;  // numbers of cells that no one asked for are made to allow coarsening
   const auto up = [&](int n, int step) { return (n + step - 1) / step * step; };
   s.round = o.cells_round.value_or(up(s.round, 4 * fit));

@@ -1,11 +1,16 @@
 // The DTU 10-MW rotor on the default grid, one setting for all winds, against its 2013 report (Bak et al., DTU Wind Energy
 // I-0092; tip-speed ratio 7.5) and the normal force along the span by blade element momentum (Madsen's induction, Prandtl's
 // losses, cone 2.5 degrees, no tilt). Figures: docs/developer/notes/rotor_resolved.md. SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "kernels/base/constants.hpp"
+#include "src/aero/bem.hpp"
 #include "src/aero/resolved_rotor.hpp"
 #include "tests/verification/rotor/bem_rows.hpp"
 
@@ -57,4 +62,28 @@ TEST_CASE("the rotor of default size has the report's thrust to five and its pow
   CHECK(friction / tangential < -0.02);
   CHECK(friction / tangential > -0.1);
   if (o.wind == 11.0) CHECK(worst < 0.15);
+}
+
+TEST_CASE("rotors of two and four blades on the default grid have the loads of blade elements to five and ten per cent",
+          "[rotor][nightly]") {
+  const auto [blades, rpm] = GENERATE(std::pair{2, 8.836}, std::pair{2, 10.0}, std::pair{4, 7.0});
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("spindrift_blades_" + std::to_string(getpid()) + ".toml");
+  ResolvedRotorSetup setup = demo(11.0, rpm, 0.0);
+  std::ofstream(file) << "base = \"" << setup.rotor.turbine << "\"\n[turbine]\nblades = " << blades << "\n";
+  setup.rotor.turbine = file.string();
+  const Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  const DiscLoad by_elements = BladeElementMomentum(read_turbine(setup.rotor.turbine), "madsen", 1.225)(
+      Eigen::Vector3d(11.0 * axis),
+      {Eigen::Vector3d::Zero(), setup.rotor.speed * axis, axis, Eigen::Vector3d::UnitZ(), 0.0, 0.0});
+  ResolvedRotor rotor(setup);
+  rotor.solver().start_uniform();
+  rotor.prepare(MPI_COMM_SELF, {.threads = 1});
+  rotor.run();
+  std::filesystem::remove(file);
+  const double power = by_elements.moment.x() * setup.rotor.speed;
+  CAPTURE(blades, rpm, rotor.load().thrust, rotor.load().power, by_elements.force.x(), power, rotor.solver().cells());
+  CHECK(rotor.solver().march().verdict == Verdict::converged);
+  CHECK(rotor.load().thrust == Approx(by_elements.force.x()).epsilon(0.05));
+  CHECK(rotor.load().power == Approx(power).epsilon(0.10));
 }

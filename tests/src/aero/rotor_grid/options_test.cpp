@@ -43,6 +43,15 @@ TEST_CASE("one number sizes a grid, and each number may be given by itself", "[r
   CHECK(spec.pitch == 0.1);
 }
 
+TEST_CASE("fewer blades have more cells between them", "[rotor_grid][fast]") {
+  Turbine turbine = dtu();
+  const auto beside = [&](int blades) {
+    turbine.blades = blades;
+    return rotor_grid_spec(*read("[aero.grid]\n").grid, turbine, 0.0, 1.0, 11.0).sizes.beside;
+  };
+  CHECK((beside(3) == 6 && beside(4) == 6 && beside(2) == 9 && beside(1) == 18));
+}
+
 TEST_CASE("sizes that no one asked for allow the coarsening asked for", "[rotor_grid][fast]") {
   const AeroOptions aero = read("[aero.grid]\nresolution = 2.3\ncoarsen = 2\nsectors = 'one'\n");
   const MultiBlockGrid grid = make_rotor_grid(dtu(), rotor_grid_spec(*aero.grid, dtu(), 0.2, 0.0, 0.0));
