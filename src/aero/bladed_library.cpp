@@ -10,6 +10,8 @@
 #include <bit>
 #include <cfenv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -36,6 +38,35 @@ class KeptFloatingPoint {
 
  private:
   std::fenv_t environment_;
+};
+
+/// While a library runs: the program must not end with it, as by Fortran's STOP, with exit code 0 and without a word; and paths
+/// that are not absolute must go on to mean the same.
+class Calling {
+ public:
+  explicit Calling(const std::string& library) : folder_(fs::current_path(error_)) {
+    static const int registered = std::atexit(refuse_end);
+    static_cast<void>(registered);
+    running_ = library.c_str();
+  }
+  ~Calling() {
+    running_ = nullptr;
+    if (!folder_.empty() && fs::current_path(error_) != folder_) fs::current_path(folder_, error_);
+  }
+  Calling(const Calling&) = delete;
+  Calling& operator=(const Calling&) = delete;
+
+ private:
+  static void refuse_end() {
+    if (!running_) return;
+    constexpr int machine_failure = 4;  // docs/user/troubleshooting.md
+    fmt::print(stderr, "error: control.library {} has ended the program (exit, or STOP of Fortran)\n", running_);
+    std::fflush(stderr);
+    _exit(machine_failure);
+  }
+  static inline std::atomic<const char*> running_{nullptr};
+  std::error_code error_;
+  fs::path folder_;
 };
 
 [[noreturn]] void refuse_library(const std::string& path, const std::string& what) {
@@ -122,6 +153,7 @@ BladedLibrary::Asked BladedLibrary::tell(const Told& told) {
   int fail = 0;
   {
     const KeptFloatingPoint kept;
+    const Calling calling(options_.library);
     loaded_->call(swap_.data(), &fail, input.data(), output.data(), message.data());
   }
   message.back() = '\0';

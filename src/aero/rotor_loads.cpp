@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/rotor_loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 #include "src/aero/wind.hpp"
 
 namespace spindrift::aero {
@@ -39,6 +42,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind 
                        double step_s, const Eigen::Vector3d& gravity)
     : bearing_(placement, rotor.azimuth, start),
       start_{rotor.azimuth, rotor.speed, rotor.blade_pitch},
+      tip_radius_(0.5 * rotor_diameter(rotor)),
       wind_(std::move(wind)),
       gravity_(gravity) {
   if (aero.thrust_frame == "earth") thrust_direction_ = placement.axis.normalized();
@@ -205,7 +209,15 @@ void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<doubl
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
-  if (control_) control_->advance(t, h, measured(t, now), memory.first(drive_size()));
+  if (control_) {
+    control_->advance(t, h, measured(t, now), memory.first(drive_size()));
+    constexpr double fastest = 1020.0;  // m/s: three times that of sound, beyond which air has no such loads
+    if (const double speed = TurbineControl::state(memory).speed, tips = std::abs(speed) * tip_radius_; tips > fastest)
+      throw NumericalFailure(
+          fmt::format("t = {:g} s: control: the rotor turns at {:.4g} rpm, its tips at {:.4g} m/s; the limit is {:g} m/s", t,
+                      speed * 30.0 / pi, tips, fastest),
+          "control", 0, t, fastest);
+  }
   if (blades()) blades()->remember(blades_at(wind_, t, now, memory), h, memory.subspan(drive_size()));
 }
 

@@ -237,6 +237,16 @@ TEST_CASE("a library that gives up ends the run with its words, exit code 3 and 
   CHECK_THAT(summary.exit_reason, Catch::Matchers::Contains("pitch bearing is lost"));
 }
 
+TEST_CASE("a rotor that its library drives faster than air has loads for is stopped by name", "[coupled][fast]") {
+  const LibraryRun run("library_drives", "gain -1e6");
+  const io::Summary summary = run_scene(scene_file, run.overrides({"time.end_s=200.0"}), run.folder.path());
+  CHECK(summary.exit_code == 3);
+  CHECK_THAT(summary.exit_reason, Catch::Matchers::Contains("the rotor turns at"));
+  CHECK_THAT(summary.exit_reason, Catch::Matchers::Contains("the limit is 1020 m/s"));
+  const double fastest = 1020.0 / (0.5 * 178.3);
+  for (const double rpm : history_of(run.folder)["rotor.rpm"]) CHECK(std::abs(rpm) * pi / 30.0 < fastest);
+}
+
 TEST_CASE("a library is refused where windows repeat, where it does not fit and where it is none", "[coupled][fast]") {
   const LibraryRun run("library_refused", optimal);
   const auto refusal = [&](std::vector<std::string> more) -> std::string {

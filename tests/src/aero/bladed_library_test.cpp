@@ -4,8 +4,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -186,4 +188,33 @@ TEST_CASE("a file that is no library, and one without the procedure, are refused
                     Catch::Contains("is no library that can be loaded") && Catch::Contains(file.path.string()));
   options.library = "/nowhere.so";
   CHECK_THROWS_WITH(BladedLibrary(options, 3), Catch::Contains("/nowhere.so"));
+}
+
+TEST_CASE("a library that ends the program does not end it well", "[aero][fast]") {
+  const InputFile file("exit_from 1.0");
+  int said[2];
+  REQUIRE(pipe(said) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(said[1], STDERR_FILENO);
+    BladedLibrary library(file.options(), 3);
+    for (int n = 0; n < 5; ++n) library.call(n, told(n));
+    _exit(0);
+  }
+  close(said[1]);
+  std::string text(4096, '\0');
+  text.resize(std::size_t(std::max<ssize_t>(0, read(said[0], text.data(), text.size()))));
+  close(said[0]);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 4);
+  CHECK(text.find("has ended the program") != std::string::npos);
+}
+
+TEST_CASE("a library that goes to another folder leaves the program in its own", "[aero][fast]") {
+  const std::filesystem::path here = std::filesystem::current_path();
+  REQUIRE(here != "/");
+  CHECK(trouble("leave_from 0.0").empty());
+  CHECK(std::filesystem::current_path() == here);
 }

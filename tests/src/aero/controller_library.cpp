@@ -1,8 +1,11 @@
 // A small controller library of our own with Bladed's interface, for tests: a generator that holds K omega^2 of a filtered speed,
 // which it keeps to itself, and what its input file asks for besides: a word and a number a line. SPDX-License-Identifier:
 // Apache-2.0
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -69,6 +72,8 @@ extern "C" void DISCON(float* swap, int* fail, char* input, char* output, char* 
       record(47) += float(number) * record(number);
     record(45) = record(17) + 100.0f * record(61) + 1000.0f * record(28);
   }
+  if (record(2) >= settings.at("leave_from", 1e9)) static_cast<void>(chdir("/"));
+  if (record(2) >= settings.at("exit_from", 1e9)) std::exit(0);
   if (record(2) >= settings.at("warn_from", 1e9)) *fail = 1, std::strncpy(message, "speed is high", std::size_t(record(49)) - 1);
   if (record(2) >= settings.at("fail_from", 1e9))
     *fail = -1, std::strncpy(message, "pitch bearing is lost  ", std::size_t(record(49)) - 1);
