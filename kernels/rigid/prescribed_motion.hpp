@@ -17,7 +17,7 @@ struct Drive {
   double value = 0.0, rate = 0.0, acceleration = 0.0;
 };
 
-/// Natural cubic spline through (time, value); constant beyond its ends.
+/// Natural cubic spline through (time, value); constant beyond its ends, at which it still has the rate within.
 class CubicTable {
  public:
   CubicTable() = default;
@@ -43,10 +43,15 @@ class CubicTable {
     return most;
   }
 
+  double begin() const { return t_.front(); }
+  double end() const { return t_.back(); }
+
   Drive at(double t) const {
-    if (t <= t_.front()) return {y_.front(), 0.0, 0.0};
-    if (t >= t_.back()) return {y_.back(), 0.0, 0.0};
-    const std::size_t k = std::size_t(std::upper_bound(t_.begin(), t_.end(), t) - t_.begin()) - 1;
+    const double rounding = 1e-9 * (t_.back() - t_.front());  // of the times of steps
+    if (t < t_.front() - rounding) return {y_.front(), 0.0, 0.0};
+    if (t > t_.back() + rounding) return {y_.back(), 0.0, 0.0};
+    t = std::clamp(t, t_.front(), t_.back());
+    const std::size_t k = std::size_t(std::upper_bound(t_.begin() + 1, t_.end() - 1, t) - t_.begin()) - 1;
     const double h = t_[k + 1] - t_[k], a = (t_[k + 1] - t) / h, b = 1.0 - a;
     return {a * y_[k] + b * y_[k + 1] + ((a * a * a - a) * m_[k] + (b * b * b - b) * m_[k + 1]) * h * h / 6.0,
             (y_[k + 1] - y_[k]) / h + ((3 * b * b - 1) * m_[k + 1] - (3 * a * a - 1) * m_[k]) * h / 6.0,

@@ -183,7 +183,8 @@ scene::Section<RotorOptions> with_rotor_keys(scene::Section<RotorOptions> sectio
       .text("joint", &RotorOptions::joint, "Joint that is the bearing: its point is the hub, its axis the rotor's, downwind.")
       .vector("hub_m", &RotorOptions::hub_m, "m", "Hub, initial earth coordinates.")
       .only_if("joint", no_joint)
-      .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.")
+      .vector("axis", &RotorOptions::axis, "-", "Rotor axis, downwind, initial earth frame; any length.",
+              scene::between(-1e6, 1e6))
       .only_if("joint", no_joint)
       .choice("operating_point", &RotorOptions::operating_point,
               {{"given", "speed_rpm, or the driver of the bearing, and blade_pitch_deg"},
@@ -275,7 +276,12 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem(own("turbine"), "must name a turbine file: aero.model \"bem\" needs the blades");
   try_file(own("turbine"), rotor.turbine, [&] {
-    const bool depends = depends_on_reynolds(read_turbine(rotor.turbine));
+    const Turbine turbine = read_turbine(rotor.turbine);
+    const double blades = 2.0 * turbine.planform.span.back();  // along them: cone and bending make the disc smaller
+    if (rotor.diameter_m && std::abs(*rotor.diameter_m / blades - 1.0) > 0.1)
+      doc.problem(own("diameter_m"), fmt::format("is {:.6g} m, but the blades of {} reach {:.6g} m: leave it out",
+                                                 *rotor.diameter_m, rotor.turbine, blades));
+    const bool depends = depends_on_reynolds(turbine);
     if (aero.kinematic_viscosity_m2_s && !depends)
       doc.problem("aero.kinematic_viscosity_m2_s",
                   fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));

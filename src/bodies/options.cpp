@@ -275,10 +275,12 @@ const Section<JointOptions>& joint_section() {
           .size(2, 2)
           .vector("point_m", &JointOptions::point_m, "m", "Point of the joint, initial earth coordinates.")
           .required()
-          .vector("axis", &JointOptions::axis, "-", "Direction of the axis; its length does not matter.")
+          .vector("axis", &JointOptions::axis, "-", "Direction of the axis; its length does not matter.",
+                  scene::between(-1e6, 1e6))
           .only_if("type", {"revolute", "universal", "translational", "cylindrical", "planar"})
           .required()
-          .vector("second_axis", &JointOptions::second_axis, "-", "Axis of the cross on the second body.")
+          .vector("second_axis", &JointOptions::second_axis, "-", "Axis of the cross on the second body.",
+                  scene::between(-1e6, 1e6))
           .only_if("type", {"universal"})
           .required()
           .table("rotation", &JointOptions::rotation, rotation_section(), "Driver in rotation.")

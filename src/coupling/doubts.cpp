@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "kernels/rigid/rotation.hpp"
@@ -490,6 +491,19 @@ void doubt_time_of_table(scene::Doubts& doubts, const std::string& key, const st
                     "rows within the run", "one value or one line holds all along; look at the unit of its time_s: s, not ms"});
 }
 
+/// A driver's table that begins or ends within the run while it moves: the joint starts or stops at once.
+void doubt_driver(scene::Doubts& doubts, const std::string& key, const PrescribedMotion& motion, double end_s) {
+  constexpr double least = 0.01;  // of the steepest
+  if (motion.table.empty()) return;
+  for (const auto& [t, verb, inside] : {std::tuple{motion.table.begin(), "begins", motion.table.begin() > 0.0},
+                                        std::tuple{motion.table.end(), "ends", motion.table.end() < end_s}})
+    if (const double share = std::abs(motion.table.at(t).rate) / std::max(motion.table.steepest(), 1e-300);
+        inside && share > least)
+      doubts.push_back(
+          {key, fmt::format("{} at {:.4g} s with {:.2g} of its largest rate, in a run of {:.4g} s", verb, t, share, end_s),
+           "at rest there, by rows of the same value, or over the whole run", "the joint moves or stops at once"});
+}
+
 void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   constexpr double most_checkpoints = 320.0;
   const Scenario& s = floating.scenario();
@@ -526,6 +540,9 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
+  for (const bodies::Joint& joint : bodies::make_joints(s.joints, s.bodies))
+    for (const auto& [kind, motion] : {std::pair{"rotation", &joint.rotation}, std::pair{"translation", &joint.translation}})
+      if (*motion) doubt_driver(doubts, fmt::format("joints.{}.{}.table", joint.name, kind), **motion, s.time.end_s);
   doubt_time_of_table(doubts, "wind.table", s.has_rotor() ? s.wind.table : "", s.time.end_s);
   doubt_time_of_table(doubts, "aero.table", s.aero.table, s.time.end_s);
   for (const auto& [key, value] : {std::pair{"waves.crest_time_s", s.waves.crest_height_m ? s.waves.crest_time_s : 0.0},

@@ -285,10 +285,12 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
   const double edge_of_cells = !laid_out ? d
                                : planar  ? std::sqrt(sph::TankLattice<2>(tank, d).cell())
                                          : std::cbrt(sph::TankLattice<3>(tank, d).cell());
+  if (o.fields && o.fields->surface_spacing_m > 0.0 && o.fields->surface_spacing_m < 0.1 * d)
+    wrong("sea.fields.surface_spacing_m", fmt::format("must be at least a tenth of the particles' spacing, {:.4g} m", 0.1 * d));
   std::set<std::string> names;
   const auto name = [&](const std::string& key, const std::string& value) {
-    if (value.empty() || value.find_first_of(" ,\"\t\n") != std::string::npos)
-      wrong(key, "must be a name without spaces, commas and quotes");
+    if (value.empty() || value.find_first_of(" ,.\"\t\n") != std::string::npos)
+      wrong(key, "must be a name without spaces, commas, dots and quotes");
     if (!names.insert(value).second) wrong(key, "is the name of another gauge, probe or sensor");
   };
   for (std::size_t n = 0; n < o.gauges.size(); ++n) {
@@ -415,6 +417,15 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     }
   };
   require_places("water", o.water), require_places("obstacles", o.obstacles);
+  std::vector<BoxOptions> wet = o.water;
+  if (wet.empty()) wet.push_back({{t.x_m[0], planar ? 0.0 : t.y_m[0], -depth}, {t.x_m[1], planar ? 0.0 : t.y_m[1], 0.0}});
+  for (std::size_t n = 0; n < o.obstacles.size(); ++n) {
+    const auto holds = [&](const BoxOptions& box) {
+      const Eigen::Array3d low = box.low_m - o.obstacles[n].low_m, high = o.obstacles[n].high_m - box.high_m;
+      return (planar ? std::min({low[0], low[2], high[0], high[2]}) : std::min(low.minCoeff(), high.minCoeff())) >= 0.0;
+    };
+    if (std::ranges::all_of(wet, holds)) wrong(fmt::format("sea.obstacles[{}]", n), "holds all of the water: there is no sea");
+  }
 
   const sph::Cut cut = planar ? sph::Cut::plane : sph::Cut::space;
   for (const ParticleBody& body : bodies)

@@ -121,6 +121,10 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     if (std::none_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return has_cylinder(b, name); }))
       problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
                           "names '" + name + "', which no body has; known: " + cylinders});
+    for (std::size_t j = 0; j < i; ++j)
+      if (options.coefficients[j].cylinder == name)
+        problems.push_back({"sea.coefficients[" + std::to_string(i) + "].cylinder",
+                            "names '" + name + "', which has its coefficients from sea.coefficients[" + std::to_string(j) + "]"});
     if (options.coefficients[i].diffraction == "none") continue;
     const std::string key = "sea.coefficients[" + std::to_string(i) + "].diffraction";
     if (options.model == "potential") problems.push_back({key, "has no effect: sea.model is \"potential\"", "sea.model"});

@@ -84,6 +84,7 @@ wind.direction_deg="north"
 rotor.turbine="nothing.toml"
 rotor.turbine="/dev/zero"
 rotor.turbine="/etc/hostname"
+rotor.diameter_m=178330.0
 rotor.body="nobody"
 rotor.joint="nothing"
 rotor.operation="/dev/zero"
@@ -120,6 +121,7 @@ sea.strip_length_m=1e-12
 sea.strip_length_m=0.0
 sea.strip_length_m=1e-5
 sea.drag_coefficient=-1.0
+sea.coefficients=[{cylinder="float_downwind", drag_coefficient=1.0}, {cylinder="float_downwind", drag_coefficient=20.0}] : sea.coefficients[1].cylinder
 sea.damping[0].body="nobody"
 waves.height_m=-1.0
 waves.height_m=30.0 & waves.model="stokes2" : waves
@@ -172,6 +174,10 @@ sea.tank.x_m=[0.0]
 sea.tank.y_m=[0.0, 0.0]
 sea.tank.sides_x="ajar"
 sea.fields.interval_s=-1.0
+sea.fields.surface_spacing_m=1e-7
+sea.fields.particles=["velocity", "velocity"]
+sea.obstacles=[{low_m=[-1e3, -1e3, -1e3], high_m=[1e3, 1e3, 1e3]}] : sea.obstacles[0]
+sea.gauges=[{name="platform.sea", point_m=[0.0, 0.0]}] : sea.gauges[0].name
 sea.initial.state="calm"
 """,
     "leble_barakos/case3_demo.toml": """
@@ -187,6 +193,7 @@ wind.speed_m_s=-11.0
 rotor.turbine="nothing.toml"
 rotor.speed_rpm="fast"
 rotor.axis=[0.0, 0.0, 0.0]
+rotor.axis=[1e160, 0.0, 0.0]
 rotor.body="platform"
 aero.grid.resolution=0.0
 aero.grid.resolution=1e6

@@ -24,6 +24,13 @@ TEST_CASE("a table motion passes its points, is smooth at them and rests beyond 
   CHECK(table.at(-1.0).value == 1.0);
   CHECK(table.at(9.0).value == 5.0);
   CHECK(table.at(9.0).rate == 0.0);
+  for (const double end : {0.0, 4.0}) {  // where a run begins or ends with it, it moves
+    const double inside = end == 0.0 ? 1e-7 : 4.0 - 1e-7;
+    CHECK(table.at(end).rate == Approx(table.at(inside).rate).margin(1e-5));
+    CHECK(std::abs(table.at(end).rate) > 0.5);
+  }
+  CHECK(table.at(4.0 + 1e-12).rate == table.at(4.0).rate);
+  CHECK(table.at(4.0 + 1e-6).rate == 0.0);
   const std::vector<double> two{0.0, 2.0}, line{1.0, 5.0};
   CHECK(CubicTable(two, line).at(0.5).value == Approx(2.0));
   CHECK(CubicTable(two, line).at(0.5).rate == Approx(2.0));
