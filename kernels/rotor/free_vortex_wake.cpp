@@ -196,15 +196,23 @@ void FreeVortexWake::add_velocities(std::span<const double> memory, double sense
 
 /// Of the filaments on themselves, at the inner ends of their segments; far: as `State::far`.
 void FreeVortexWake::add_self_induction(const State& s, double sense, std::span<Vector3d> far) const {
+  std::vector<Vector3d> ends(far_rows_ + 1);
+  std::vector<double> circulations(far_rows_), cores(far_rows_);
   for (std::size_t b = 0; b < blades_; ++b)
-    for (std::size_t line = 1; line < far_rows_; ++line) {
-      const double newer = sense * s.pairs[b * far_rows_ + line - 1], older = sense * s.pairs[b * far_rows_ + line];
-      const double radius = core(mean_chord_, s.age[near_rows_ + line], s.pairs[b * far_rows_ + line]);
-      for (const Side side : {root, tip}) {
-        const auto at = [&](std::size_t n) { return s.far[far_at(b, n, side)]; };
-        far[far_at(b, line, side)] += side == tip  // from the blade on; the root's comes back to it
-                                          ? self_induction({at(line - 1), at(line), at(line + 1)}, newer, older, radius)
-                                          : self_induction({at(line + 1), at(line), at(line - 1)}, older, newer, radius);
+    for (const Side side : {root, tip}) {
+      for (std::size_t line = 0; line <= far_rows_; ++line) ends[line] = s.far[far_at(b, line, side)];
+      for (std::size_t row = 0; row < far_rows_; ++row) {  // the tip's goes from the blade on, the root's comes back to it
+        const double pair = s.pairs[b * far_rows_ + row];
+        circulations[row] = (side == tip ? sense : -sense) * pair,
+        cores[row] = core(mean_chord_, s.age[near_rows_ + row + 1], pair);
+      }
+      for (std::size_t line = 1; line < far_rows_; ++line) {
+        const Bend bend = Bend::through(ends[line - 1], ends[line], ends[line + 1]);
+        const std::size_t there_are = std::min(line, far_rows_ - line);
+        const std::size_t half = std::min(there_are, self_inducing(bend, (ends[line + 1] - ends[line]).norm(), cores[line]));
+        far[far_at(b, line, side)] += self_induction({std::span(ends).subspan(line - half, 2 * half + 1),
+                                                      std::span(circulations).subspan(line - half, 2 * half),
+                                                      std::span(cores).subspan(line - half, 2 * half)});
       }
     }
 }

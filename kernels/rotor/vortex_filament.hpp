@@ -97,29 +97,61 @@ class VortexFilaments {
   std::vector<double> strength_, core_;  ///< as add_segment has them, of the segment that ends there; none where a chain begins
 };
 
-/// Ends of two segments that follow each other, in the direction of positive circulation.
-struct FilamentBend {
-  Eigen::Vector3d before, here, after;  ///< [m]
+/// Circle through three points that follow each other; none where they are in line.
+struct Bend {
+  double radius = 0.0;                               ///< [m]; 0: in line
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of its plane, by the right hand
+
+  static Bend through(const Eigen::Vector3d& before, const Eigen::Vector3d& here, const Eigen::Vector3d& after) {
+    constexpr double straight = 1e-6;  // angle between the segments
+    const Eigen::Vector3d in = here - before, out = after - here, across = in.cross(out);
+    const double twice_area = across.norm(), lengths = in.norm() * out.norm();
+    if (!(twice_area > straight * lengths)) return {};
+    return {lengths * (after - before).norm() / (2.0 * twice_area), across / twice_area};
+  }
 };
 
-/// What a curved filament induces on itself at `here` by the arc through its three points [m/s]: the segments, being straight,
-/// have none of it there. `circulation` [m2/s] of either arc; the core, of this radius [m], ends the logarithm where a ring with
-/// the core of Vatistas (n = 2) has the speed of Saffman (1992), section 10.2: Gamma/(4 pi R) (log(8 R/r_c) - 1/2). Bhagwat &
-/// Leishman (2014), J. Am. Helicopter Soc. 59, 1.
-inline Eigen::Vector3d self_induction(const FilamentBend& bend, double circulation_before, double circulation_after,
-                                      double core) {
-  const Eigen::Vector3d in = bend.here - bend.before, out = bend.after - bend.here, chord = bend.after - bend.before;
-  const Eigen::Vector3d across = in.cross(out);
-  const double twice_area = across.norm(), lengths = in.norm() * out.norm() * chord.norm();
-  constexpr double straight = 1e-6;  // angle between the segments
-  if (!(twice_area > straight * in.norm() * out.norm())) return Eigen::Vector3d::Zero();
-  const double radius = lengths / (2.0 * twice_area), cut = core / (8.0 * radius) * std::exp(0.5);
-  const auto arc = [&](double length) {  // log of tan(angle / 4) between core and end
-    const double half = std::min(1.0, 0.5 * length / radius), tangent = half / (1.0 + std::sqrt(1.0 - half * half));
-    return std::max(0.0, std::log(tangent / cut));
+/// Segments of a filament on either side of an end, in the direction of positive circulation: `ends` has one more than the
+/// others, and the end is in their middle.
+struct FilamentPiece {
+  std::span<const Eigen::Vector3d> ends;      ///< [m]
+  std::span<const double> circulation, core;  ///< of each segment [m2/s], [m]
+};
+
+/// How many segments there should be on either side, of this length and core [m]: those that the core blots out.
+inline std::size_t self_inducing(const Bend& bend, double length, double core) {
+  constexpr double widest = 1.0;  // angle of an arc; beyond, a wake is no circle
+  if (bend.radius == 0.0) return 1;
+  // A segment at the angle phi is R phi^2 / 2 aside: from two cores on it has 97 % of its velocity.
+  const double angle = std::min(widest, std::sqrt(4.0 * core / bend.radius));
+  return std::max<std::size_t>(1, std::size_t(std::ceil(angle * bend.radius / length)));
+}
+
+/// What a curved filament induces on itself at the middle end [m/s], beyond what its straight segments have there: that of the
+/// arcs through first, middle and last end in place of the segments between. The core ends the logarithm so that a ring with the
+/// core of Vatistas (n = 2) has the speed of Saffman (1992), chapter 10, Gamma/(4 pi R) (log(8 R/r_c) - 1/2). Bhagwat &
+/// Leishman (2014), J. Am. Helicopter Soc. 59.
+inline Eigen::Vector3d self_induction(const FilamentPiece& piece) {
+  const std::size_t middle = piece.circulation.size() / 2;
+  const Eigen::Vector3d& here = piece.ends[middle];
+  const Bend bend = Bend::through(piece.ends.front(), here, piece.ends.back());
+  if (bend.radius == 0.0) return Eigen::Vector3d::Zero();
+  const auto arc = [&](const Eigen::Vector3d& end, double core) {  // log of tan(angle / 4) between core and end
+    const double cut = core / (8.0 * bend.radius) * std::exp(0.5);
+    const double half = std::min(1.0, 0.5 * (end - here).norm() / bend.radius);
+    return std::max(0.0, std::log(half / (1.0 + std::sqrt(1.0 - half * half)) / cut));
   };
-  const double sum = circulation_before * arc(in.norm()) + circulation_after * arc(out.norm());
-  return sum / (8.0 * pi * radius) * (across / twice_area);
+  const double sum = piece.circulation[middle - 1] * arc(piece.ends.front(), piece.core[middle - 1]) +
+                     piece.circulation[middle] * arc(piece.ends.back(), piece.core[middle]);
+  Eigen::Vector3d straight = Eigen::Vector3d::Zero();
+  if (middle > 1) {  // those that end here have none
+    VortexFilaments segments;
+    segments.begin(piece.ends[0]);
+    for (std::size_t i = 0; i < piece.circulation.size(); ++i)
+      segments.extend(piece.ends[i + 1], piece.circulation[i], piece.core[i]);
+    segments.add_velocities(std::span(&here, 1), std::span(&straight, 1));
+  }
+  return sum / (8.0 * pi * bend.radius) * bend.normal - straight;
 }
 
 /// What lies beyond the end of a wake: a cylinder of vortex rings without end, which acts outside of itself as a sink spread over
