@@ -14,8 +14,8 @@ using Catch::Contains;
 TEST_CASE("a body may touch the bed, and is named where it is in it by more than a tenth of its size", "[coupling][fast]") {
   FloatingSystem floating(test::scenario(test::buoy, {"environment.water_depth_m=20.0"}));
   bodies::BodiesState state = make_start(floating).state;
-  // The hull reaches from -2 to 2 m about the start: half of its diagonal is sqrt(9 + 1 + 1) m with the room for its discs.
-  const double start = state.motions[0].position.z(), size = std::sqrt(1.0 + 1.0 + 9.0);
+  // The hull reaches from -2 to 2 m about the start: half of its diagonal is sqrt(4 + 1 + 1) m.
+  const double start = state.motions[0].position.z(), size = std::sqrt(1.0 + 1.0 + 4.0);
   state.motions[0].position.z() = start - 18.0 - 0.09 * size;
   CHECK(!out_of_place(floating, state));
   state.motions[0].position.z() = start - 18.0 - 0.11 * size;
