@@ -39,6 +39,8 @@
 #include "src/coupling/memory_limits.hpp"
 #include "src/coupling/out_of_place.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/saved_air.hpp"
+#include "src/coupling/saved_start.hpp"
 #include "src/coupling/start.hpp"
 #include "src/scene/angle_doubts.hpp"
 #include "src/scene/document.hpp"
@@ -73,8 +75,37 @@ void print_models(const FloatingSystem& floating) {
   print("moorings", coupling::describe_moorings(s));
 }
 
+/// The state of another run that the scene starts from, and where the sea in it comes from.
+struct SavedParts {
+  std::optional<io::CheckpointReader> sea;
+  coupling::NamedState sea_named;
+};
+/// Throws scene::SceneError where it is not of this scene. Collective.
+SavedParts open_saved_parts(MPI_Comm comm, const FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  if (!s.start.air.empty()) coupling::open_air(comm, s);
+  if (!s.start.file.empty()) return {coupling::open_start(comm, floating, start.state).file, {"start.file", s.start.file}};
+  if (floating.particle_plan() && s.sea.initial && s.sea.initial->state == "file")
+    return {coupling::open_sea(comm, floating), {"sea.initial.file", s.sea.initial->file}};
+  return {};
+}
+
+/// A sea that is laid out to be counted must have as many particles as the saved one; one that is not, about as many.
+void require_particles(const SavedParts& saved, const coupling::Scenario& s, const sea::ParticleCensus& census) {
+  if (!saved.sea) return;
+  const auto values = std::int64_t(census.particles() * census.values_each);
+  const std::string why = coupling::other_sea(*saved.sea, values);
+  const double has = double(saved.sea->size(coupling::particles_name));
+  constexpr double counted_to = 0.1;
+  if (!why.empty() && !(census.counted && std::abs(has - double(values)) <= counted_to * double(values)))
+    refuse_saved(s, saved.sea_named, why);
+  if (census.counted)
+    fmt::print("  {:<22}must be those of {} exactly, which a run tells: {:.4g} are in it\n", "", saved.sea_named.key,
+               has / double(census.values_each));
+}
+
 /// Of a sea of particles: how many, how large, how long. Nothing of it is made but a list of places.
-PartCost print_particles(const FloatingSystem& floating, const coupling::Start& start) {
+PartCost print_particles(const FloatingSystem& floating, const coupling::Start& start, const SavedParts& saved) {
   const coupling::Scenario& s = floating.scenario();
   const sea::ParticleCensus census = particle_census(*floating.particle_plan(), start.state.motions);
   const sph::Parameters& p = floating.particle_plan()->parameters;
@@ -86,6 +117,7 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
   else
     fmt::print("  {:<22}{} ({} water, {} walls, {} bodies)\n", "particles", census.particles(), census.water, census.walls,
                census.bodies);
+  require_particles(saved, s, census);
   const bool alone = coupling::has_level_water(s) && s.joints.empty() && s.moorings.empty() && s.beams.empty() && !s.has_rotor();
   for (const sea::ParticleCensus::Body& body : census.floats)
     fmt::print("  {:<22}{:.6g} m3 displaced by its particles, {:.6g} m3 at the start{}\n", body.name, body.volume_m3,
@@ -633,6 +665,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   const coupling::Start start = start_or_doubts(floating, angles, world.rank == 0);
   const coupling::Stability stability = coupling::stability(floating, start.state);
   if (has_resolved_rotor(floating.scenario())) try_grid(resolved_rotor_on(floating, start), world.size);
+  const SavedParts saved = open_saved_parts(world.comm, floating, start);
   const double start_s = processor_seconds() - begin_s;
   scene::Doubts accepted;
   std::optional<scene::SceneError> refusal;  // told below what helps to mend it
@@ -654,7 +687,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   const BaseCost base = base_cost(start_s);  // before what a census or a grid leaves behind
   if (start.state.motions.empty()) {
     print_meshes(floating, start);
-    const PartCost cost = print_particles(floating, start);
+    const PartCost cost = print_particles(floating, start, saved);
     print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
     print_omissions(arguments);
     return done;
@@ -685,7 +718,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     parts.push_back(print_air(floating, start, arguments.calibrate));
   if (floating.particle_plan()) {
     print_meshes(floating, start);
-    parts.push_back(print_particles(floating, start));
+    parts.push_back(print_particles(floating, start, saved));
     print_cost(parts, floating.scenario().time.end_s, world.size, base);
   } else if (const double steps_s = print_steps(floating, start); parts.empty())
     print_cost_of_steps(floating.timeline(), base, steps_s);

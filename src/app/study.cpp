@@ -18,7 +18,7 @@
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/coupling/flow_scene.hpp"
-#include "src/coupling/saved_air.hpp"
+#include "src/coupling/saved_start.hpp"
 #include "src/io/build_info.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/report/report.hpp"
@@ -98,10 +98,14 @@ std::string identity_of(const std::string& echo, const scene::FileRecord& read, 
       identity.files.push_back(digests[file]);
     }
   const auto& sea = scenario.sea.initial;
-  for (const std::string& file : {scenario.start.file, scenario.start.air, sea ? sea->file : std::string()}) {
+  for (const coupling::NamedState& named : {coupling::NamedState{"start.file", scenario.start.file},
+                                            {"start.air", scenario.start.air},
+                                            {"sea.initial.file", sea ? sea->file : std::string()}}) {
+    const std::string& file = named.file;
     if (file.empty() || file.ends_with(".h5")) continue;
     const std::string newest = "newest of " + file;  // it stands for the newest checkpoint beside it, which a run replaces
-    if (!digests.contains(newest)) digests[newest] = scene::digest_of(coupling::open_saved(MPI_COMM_SELF, file).path());
+    if (!digests.contains(newest))
+      digests[newest] = scene::digest_of(coupling::open_saved(MPI_COMM_SELF, scenario, named).path());
     identity.files.push_back(digests[newest]);
   }
   return identity.text();

@@ -103,7 +103,7 @@ class ResolvedAir final : public MarchingAir {
     tell_size();
     solver_->restart().load_tiles(steady);  // the past stays empty: the first step is of first order
     if (!start.air.empty())
-      start_from_saved_air(start.air);
+      start_from_saved_air();
     else if (settles)
       add_what_is_not_steady(settling_wind());
     return update_load_on_bodies();
@@ -254,8 +254,8 @@ class ResolvedAir final : public MarchingAir {
   }
 
   /// The flow that another run left, carried to where the blades start, upright.
-  void start_from_saved_air(const std::string& file) {
-    const io::CheckpointReader saved = open_saved(world_.comm, file);
+  void start_from_saved_air() {
+    const io::CheckpointReader saved = open_air(world_.comm, scenario());
     loads_.computed = start_from(saved, scenario(), *rotor_, aero::hub_pose(setup_.rotor));
     if (is_of_plain_wind(saved)) add_what_is_not_steady(setup_.wind);
     log_lines_.push_back(

@@ -15,6 +15,7 @@
 #include "kernels/base/constants.hpp"
 #include "src/aero/rotor_grid/options.hpp"
 #include "src/coupling/air_file.hpp"
+#include "src/coupling/saved_start.hpp"
 #include "src/io/machine_failure.hpp"
 #include "src/scene/printed.hpp"
 
@@ -96,14 +97,6 @@ void turn(std::span<double> state, std::size_t cells, const Eigen::Matrix3d& by)
 }
 
 }  // namespace
-
-io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file) {
-  if (file.extension() == ".h5") return io::CheckpointReader(comm, file);
-  std::optional<io::CheckpointReader> newest =
-      io::CheckpointSeries(comm, file.parent_path() / "checkpoints", 1).newest(io::CheckpointSeries::Damaged::leave);
-  if (!newest) throw io::InputError(fmt::format("{}: there is no checkpoint of a run beside it", file.string()));
-  return std::move(*newest);
-}
 
 void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario) {
   const std::string lines = settings_of(scenario), wind = changes_of(scenario.wind);
@@ -192,11 +185,15 @@ std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file) {
 
 bool is_of_plain_wind(const io::CheckpointReader& file) { return read_lines(file, wind_name) == changes_of({}); }
 
-ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
-                         const aero::RotorPose& start) {
-  const auto refuse = [&](const std::string& why) {
-    throw io::InputError(fmt::format("start.air: {}: {}", file.path().string(), why));
-  };
+namespace {
+[[noreturn]] void refuse_air(const io::CheckpointReader& file, const Scenario& scenario, const std::string& why) {
+  refuse_saved(scenario, {"start.air", scenario.start.air}, fmt::format("{}: {}", file.path().string(), why));
+}
+}  // namespace
+
+io::CheckpointReader open_air(MPI_Comm comm, const Scenario& scenario) {
+  io::CheckpointReader file = open_saved(comm, scenario, {"start.air", scenario.start.air});
+  const auto refuse = [&](const std::string& why) { refuse_air(file, scenario, why); };
   if (!file.has(settings_name) || !file.has(wind_name) || !file.has(pose_name)) refuse("has no air of a resolved rotor");
   const auto require_alike = [&](const std::string& theirs, const std::string& ours, const char* otherwise) {
     if (const std::string there = missing(theirs, ours), here = missing(ours, theirs); !there.empty() || !here.empty())
@@ -205,6 +202,12 @@ ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scena
   };
   require_alike(read_lines(file, settings_name), settings_of(scenario), "the default");
   if (!is_of_plain_wind(file)) require_alike(read_lines(file, wind_name), changes_of(scenario.wind), "none");
+  return file;
+}
+
+ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
+                         const aero::RotorPose& start) {
+  const auto refuse = [&](const std::string& why) { refuse_air(file, scenario, why); };
   const std::vector<double> grid = file.read<double>(grid_name), mine = moments_of(rotor);
   for (std::size_t n = 0; n < mine.size(); ++n)
     if (!(std::abs(grid[n] - mine[n]) <= 1e-9 * std::abs(mine[2])) || grid[0] != mine[0])

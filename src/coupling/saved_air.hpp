@@ -4,7 +4,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +13,6 @@
 #include "src/coupling/scenario.hpp"
 
 namespace spindrift::coupling {
-
-/// What the user names to start from: a checkpoint, or another file of a run's folder (its scene.toml, say), which stands for the
-/// newest checkpoint of that run. Collective; throws io::InputError.
-io::CheckpointReader open_saved(MPI_Comm comm, const std::filesystem::path& file);
 
 /// Whereby saved air must be like this scene's: "aero.grid.cells_round = 28" and so on, one a line. Into the checkpoint.
 void write_air_settings(io::CheckpointCopy& copy, const Scenario& scenario);
@@ -53,8 +48,10 @@ std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file);
 
 /// Whether the wind of the file's air was the same at all heights and times: what a scene's is beside that is then to be added.
 bool is_of_plain_wind(const io::CheckpointReader& file);
+/// start.air, opened and tested as far as that takes no grid. Collective; throws scene::SceneError.
+io::CheckpointReader open_air(MPI_Comm comm, const Scenario& scenario);
 /// Gives `rotor` the flow of the file, carried along with the blades to `start`, without a past. Returns what was computed,
-/// turned likewise. Throws io::InputError naming the key where the file's air is another one.
+/// turned likewise. Throws scene::SceneError where the file's air is another one.
 ComputedLoads start_from(const io::CheckpointReader& file, const Scenario& scenario, aero::ResolvedRotor& rotor,
                          const aero::RotorPose& start);
 

@@ -23,20 +23,23 @@
 
 namespace spindrift::run {
 
-using coupling::air_part, coupling::sea_part;
+using coupling::air_part, coupling::sea_part, coupling::library_of, coupling::library_log;
 
 namespace {
 
-/// The particles of a checkpoint into the floating system's sea, which must be the same sea.
-void restore_particles(const coupling::FloatingSystem& floating, const io::CheckpointReader& file) {
+/// The particles of a checkpoint into the floating system's sea, which must be the same sea. `named`: none where the checkpoint
+/// is the run's own.
+void restore_particles(const coupling::FloatingSystem& floating, const io::CheckpointReader& file,
+                       const std::optional<coupling::NamedState>& named = {}) {
   if (!floating.particles()) return;
+  sea::ParticleState state = floating.particles()->layout();
+  if (const std::string why = coupling::other_sea(file, state.total); !why.empty()) {
+    if (named) coupling::refuse_saved(floating.scenario(), *named, why);
+    throw io::InputError(why);
+  }
   try {
-    sea::ParticleState state = floating.particles()->layout();
-    if (file.size("sea/particles") != state.total)
-      throw std::invalid_argument("its sea has " + std::to_string(file.size("sea/particles")) +
-                                  " values of particles, this one " + std::to_string(state.total));
     const io::Slice<double> mine{state.first, state.values};
-    file.read<double>("sea/particles", std::span(&mine, 1));
+    file.read<double>(coupling::particles_name, std::span(&mine, 1));
     state.time_s = file.number("sea/time_s"), state.steps = file.integer("sea/steps");
     if (file.has("sea/sensors")) state.sensors = file.read<double>("sea/sensors");
     if (file.has("sea/energy")) {
@@ -59,19 +62,6 @@ std::vector<double> form_of(const io::CheckpointReader& file, const coupling::Co
   form[0] = double(file.integer("coupling/scheme"));
   return form;
 }
-
-/// At which the memory of a convolution is sampled.
-constexpr const char* step_of_bodies = "bodies/step_s";
-double step_s(const coupling::Timeline& timeline) { return timeline.window_s() / double(timeline.steps_per_window()); }
-
-/// Null where no library controls the rotor.
-aero::BladedLibrary* library_of(const coupling::FloatingSystem& floating) {
-  const aero::TurbineControl* control = floating.rotor() ? floating.rotor()->control() : nullptr;
-  return control ? control->library() : nullptr;
-}
-
-/// What a controller library was told, so that a run that goes on can tell it again; nothing without one.
-constexpr const char* library_log = "control/calls";
 
 void save_library(const coupling::FloatingSystem& floating, io::CheckpointCopy& copy) {
   const aero::BladedLibrary* library = library_of(floating);
@@ -97,8 +87,8 @@ void fill_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
   });
   const auto& initial = floating.scenario().sea.initial;
   if (!floating.particle_plan() || !initial || initial->state != "file") return;
-  const io::CheckpointReader file = coupling::open_saved(parts.world().comm, initial->file);
-  coupling::on_parts(parts, [&] { restore_particles(floating, file); });
+  const io::CheckpointReader file = coupling::open_sea(parts.world().comm, floating);
+  coupling::on_parts(parts, [&] { restore_particles(floating, file, coupling::NamedState{"sea.initial.file", initial->file}); });
 }
 
 coupling::Sides sides_in_filled_sea(coupling::FloatingSystem& floating, std::span<const Motion> start,
@@ -221,51 +211,28 @@ std::int64_t SystemSimulation::begin(const io::RunDirectory& directory) {
   return window;
 }
 
-/// start.file: the state that another run of the same floating system left, whatever its windows and its march.
+/// start.file.
 std::int64_t SystemSimulation::take_over() {
-  const io::CheckpointReader file = coupling::open_saved(parts_.world().comm, floating_.scenario().start.file);
-  const auto refuse = [&](const std::string& why) {
-    throw io::InputError(fmt::format("{} (start.file): {}", file.path().string(), why));
-  };
-
-  const coupling::Timeline& timeline = floating_.timeline();
-  const double t = file.number("time_s");
-  const std::optional<std::int64_t> windows =
-      t == 0.0 ? std::optional<std::int64_t>(0) : coupling::whole_ratio(t, timeline.window_s());
-  if (!windows)
-    refuse(fmt::format("its state is that of t = {:g} s, which is no whole number of windows of {:g} s", t, timeline.window_s()));
-  if (*windows >= timeline.windows())
-    refuse(fmt::format("its state is that of t = {:g} s, the run ends at {:g} s", t, timeline.window_end_s(timeline.windows())));
-  const std::vector<double> bodies = file.read<double>("bodies/state");
-  // Work is counted anew, which may have other sources of load here.
-  const std::vector<double> work = std::exchange(state_.work, {});
-  if (bodies.size() != state_.packed_size() + std::size_t(file.integer("bodies/works")))
-    refuse("its bodies and joints are not those of this scene");
-  const auto& potential = floating_.scenario().sea.potential;
-  if (potential && potential->radiation == "convolution" && file.has(step_of_bodies)) {
-    const double was = file.read<double>(step_of_bodies).at(0), is = step_s(timeline);
-    if (std::abs(was - is) > 1e-9 * is)
-      refuse(
-          fmt::format("its water remembers the bodies at steps of {:g} s (sea.potential.radiation \"convolution\"), here they "
-                      "are of {:g} s",
-                      was, is));
-  }
+  const coupling::SavedStart saved = coupling::open_start(parts_.world().comm, floating_, state_);
+  const io::CheckpointReader& file = saved.file;
+  const std::vector<double> bodies = file.read<double>(coupling::bodies_name);
+  const std::vector<double> work = std::exchange(state_.work, {});  // counted anew
   state_.unpack(std::span(bodies).first(state_.packed_size()));
   state_.work = work;
-  state_.tick = timeline.tick_of_window(*windows);
+  state_.tick = floating_.timeline().tick_of_window(saved.window);
   restore_library(floating_, file);
-  restore_fluids(file);
+  restore_fluids(file, coupling::NamedState{"start.file", floating_.scenario().start.file});
   // What the scheme has learnt goes along where scheme and window are the same; else it begins with the state alone.
   const bool same = file.has("coupling/history") &&
                     form_of(file, floating_.scenario().coupling) == form_of(floating_.scenario().coupling) &&
-                    file.number("window_s") == timeline.window_s();
+                    file.number("window_s") == floating_.timeline().window_s();
   if (!same || !window_.restore(file.read<double>("coupling/history"))) window_.begin(state_);
-  spdlog::info("from t = {:g} s of {}", t, file.path().string());
-  return *windows;
+  spdlog::info("from t = {:g} s of {}", saved.t, file.path().string());
+  return saved.window;
 }
 
 void SystemSimulation::restore(const io::CheckpointReader& file) {
-  const std::vector<double> bodies = file.read<double>("bodies/state");
+  const std::vector<double> bodies = file.read<double>(coupling::bodies_name);
   if (bodies.size() != state_.packed_size() || file.integer("bodies/works") != std::int64_t(state_.work.size()))
     throw io::InputError(file.path().string() +
                          ": its bodies, joints, loads and their memories are not those of this scene, which cannot "
@@ -286,10 +253,10 @@ void SystemSimulation::restore(const io::CheckpointReader& file) {
   start_clocks();
 }
 
-void SystemSimulation::restore_fluids(const io::CheckpointReader& file) {
+void SystemSimulation::restore_fluids(const io::CheckpointReader& file, const std::optional<coupling::NamedState>& named) {
   coupling::on_parts(parts_, [&] {
     window_.sides().air().restore(file);
-    restore_particles(floating_, file);
+    restore_particles(floating_, file, named);
   });
 }
 
@@ -297,9 +264,9 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   std::vector<double> packed(state_.packed_size());
   state_.pack(packed);
   copy.set("steps", steps_);
-  copy.write<double>("bodies/state", packed);
+  copy.write<double>(coupling::bodies_name, packed);
   copy.set("bodies/works", std::int64_t(state_.work.size()));
-  copy.write<double>(step_of_bodies, std::array{step_s(floating_.timeline())});
+  copy.write<double>(coupling::step_of_bodies, std::array{floating_.timeline().tick_s()});
   if (const std::vector<double> history = window_.history(); !history.empty()) {
     copy.write<double>("coupling/form", form_of(floating_.scenario().coupling));
     copy.write<double>("coupling/history", history);
@@ -316,7 +283,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   copy.write<std::int64_t>("sea/energy", sums);
   if (!floating_.particle_plan()->sensors.empty()) copy.write<double>("sea/sensors", particles.sensors);
   std::vector<coupling::SavedArray> arrays;  // not by a list, which copies
-  arrays.push_back({"sea/particles", particles.total, {}});
+  arrays.push_back({coupling::particles_name, particles.total, {}});
   arrays.back().pieces.push_back({particles.first, std::move(particles.values)});
   coupling::write(copy, parts_, sea_part, std::move(arrays));
 }

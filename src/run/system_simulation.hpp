@@ -7,6 +7,7 @@
 #include "runtime/mpi/parts.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/recorder.hpp"
+#include "src/coupling/saved_start.hpp"
 #include "src/coupling/window.hpp"
 #include "src/run/simulation.hpp"
 
@@ -41,7 +42,7 @@ class SystemSimulation final : public Simulation {
 
  private:
   std::int64_t take_over();
-  void restore_fluids(const io::CheckpointReader& file);
+  void restore_fluids(const io::CheckpointReader& file, const std::optional<coupling::NamedState>& named = {});
   void start_clocks();
   void write_log_lines();
   void log_window(const coupling::WindowReport& report, double end_s, double wall_s);

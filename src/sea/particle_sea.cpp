@@ -493,6 +493,7 @@ ParticleCensus census_of(const ParticlePlan& plan, std::span<const Motion> start
   sph::Parameters p = plan.parameters;
   std::vector<sph::TankCount::Body> bodies;
   ParticleCensus census = counted_or_laid_out<dim>(plan, start, p, bodies);
+  census.values_each = sph::values_per_particle<dim>(plan.parameters);
   const double walls_to_water = measure<dim, Real>(plan.parameters, census);
   census.leading_s = measure_leading<dim>(plan);
   census.step_s = sph::step_limits(p.cfl, p.h(), p.eos.c0, 0.0, p.gravity, 0.0).smallest(), census.step_set_by = "sound";

@@ -83,6 +83,7 @@ inline constexpr double bytes_of_note = 62.0;
 struct ParticleCensus {
   std::size_t water = 0, walls = 0, bodies = 0;
   bool counted = false;                 ///< by columns and volumes, not laid out: within some per cent
+  std::size_t values_each = 0;          ///< of a particle in a checkpoint
   double bytes = 0.0;                   ///< of the particles in memory
   double step_s = 0.0;                  ///< largest step at rest
   std::string step_set_by;              ///< "sound", "body NAME"
