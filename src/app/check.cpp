@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/base/failure.hpp"
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/aero/changing_wind.hpp"
 #include "src/aero/first_cells.hpp"
@@ -25,6 +26,7 @@
 #include "src/app/commands.hpp"
 #include "src/app/cost.hpp"
 #include "src/app/forecast.hpp"
+#include "src/app/held_output.hpp"
 #include "src/app/leave_out.hpp"
 #include "src/app/rotor_start.hpp"
 #include "src/app/scene_file.hpp"
@@ -464,11 +466,11 @@ std::string friction_of(const aero::FlowOptions& flow) {
   return flow.viscous == "none" ? "inviscid" : flow.turbulence == "none" ? "laminar" : flow.turbulence;
 }
 
-void print_resolved_rotor(const std::string& source, const coupling::Scenario& s, const scene::Doubts& angles, bool calibrate,
-                          int ranks, const BaseCost& base) {
+void print_resolved_rotor(const coupling::Scenario& s, const scene::Doubts& angles, bool calibrate, int ranks,
+                          const BaseCost& base) {
   const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
   const aero::ResolvedRotorSize size = aero::resolved_rotor_size(setup);
-  fmt::print("{}: valid\n\nWhat will be modelled\n", source);
+  fmt::print("\nWhat will be modelled\n");
   fmt::print("  {:<10}{}, {}, {}\n", "air", setup.flow.time, friction_of(setup.flow), setup.flow.flux);
   fmt::print("  {:<10}{}\n", "rotor", coupling::describe_rotor(s));
   fmt::print("  {:<10}{} sector{}, {} rows of faces along each blade\n", "grid", size.sectors,
@@ -622,6 +624,7 @@ void print_omissions(const CheckArguments& arguments) {
   }
 }
 
+/// Prints all but the verdict and what could be left out; bad_input where patches lack a condition.
 int check_as_read(const CheckArguments& arguments, const runtime::World& world, scene::Document& document,
                   coupling::Scenario scenario, double begin_s) {
   coupling::require_memory(scenario, coupling::machine_memory() * world.size);
@@ -629,9 +632,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
   if (scenario.has_flow() && has_resolved_rotor(scenario)) {
     try_grid(coupling::resolved_rotor_setup(scenario), world.size);
     if (world.rank != 0) return done;
-    print_resolved_rotor(arguments.scene, scenario, scene::angle_doubts(document.echo()), arguments.calibrate, world.size,
-                         base_cost(0.0));
-    print_omissions(arguments);
+    print_resolved_rotor(scenario, scene::angle_doubts(document.echo()), arguments.calibrate, world.size, base_cost(0.0));
     return done;
   }
   if (scenario.has_flow()) {
@@ -642,10 +643,7 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
       aero::require_inflow_plane_inside(grid, scenario.wind, coupling::wind_site(scenario));
     }
     if (world.rank != 0) return done;
-    const bool complete = std::ranges::all_of(
-        grid.boundaries, [&](const aero::Boundary& b) { return has_condition(*scenario.aero.flow, b.patch); });
-    fmt::print("{}: {}\n\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", arguments.scene,
-               complete ? "valid" : "not yet valid, patches lack a condition", "air", scenario.aero.flow->time,
+    fmt::print("\nWhat will be modelled\n  {:<10}{}, {}, grid {}\n", "air", scenario.aero.flow->time,
                friction_of(*scenario.aero.flow), aero::describe_flow_grid(*scenario.aero.flow));
     if (!print_flow_grid(*scenario.aero.flow, grid, world.size)) return bad_input;
     print_doubts(scene::angle_doubts(document.echo()), coupling::air_doubts(scenario));
@@ -655,7 +653,6 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     const PartCost cost = cost_of_flow(scenario, grid);
     print_cost(std::span(&cost, 1), scenario.time.end_s, world.size, {resident + output_bytes, start_s + output_seconds},
                scenario.aero.flow->time == "steady");
-    print_omissions(arguments);
     return done;
   }
   const coupling::OutputOptions output = scenario.output;
@@ -673,7 +670,6 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     accepted = require_limits(floating, start.state, stability);
   } catch (const scene::SceneError& e) { refusal = e; }
   if (world.rank == 0) {
-    fmt::print("{}: {}\n", arguments.scene, refusal ? "refused, for the reason at the end" : "valid");
     print_models(floating);
     for (const std::string& note : start.notes) fmt::print("  note: {}\n", note);
     for (const std::string& note : coupling::resolution_notes(floating)) fmt::print("  note: {}\n", note);
@@ -689,7 +685,6 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     print_meshes(floating, start);
     const PartCost cost = print_particles(floating, start, saved);
     print_cost(std::span(&cost, 1), floating.scenario().time.end_s, world.size, base);
-    print_omissions(arguments);
     return done;
   }
   if (floating.rotor()) {
@@ -706,7 +701,11 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
                                              : stability.rest  ? *stability.rest
                                                                : equilibrium_now();
            found.problem.empty())
-    print_equilibrium(floating, found);
+    try {
+      print_equilibrium(floating, found);
+    } catch (const NumericalFailure& failure) {  // of a line that no run has to bring to rest there
+      fmt::print("\nStatic equilibrium: {}\n", failure.what());
+    }
   else
     fmt::print("\nStatic equilibrium: none found ({})\n", found.problem);
   std::vector<PartCost> parts;
@@ -724,7 +723,6 @@ int check_as_read(const CheckArguments& arguments, const runtime::World& world, 
     print_cost_of_steps(floating.timeline(), base, steps_s);
   else
     print_cost(parts, floating.scenario().time.end_s, world.size, {base.bytes, base.core_seconds + steps_s});
-  print_omissions(arguments);
   return done;
 }
 
@@ -734,7 +732,20 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   const double begin_s = processor_seconds();
   scene::Document document = load_scene(arguments.scene, arguments.overrides);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  return by_lines(document, [&] { return check_as_read(arguments, world, document, std::move(scenario), begin_s); });
+  HeldOutput held;
+  int code = done;
+  try {
+    code = by_lines(document, [&] {
+      return at_rest(document, [&] { return check_as_read(arguments, world, document, std::move(scenario), begin_s); });
+    });
+  } catch (...) {
+    if (!held.empty()) held.release(arguments.scene + ": refused, for the reason at the end\n");
+    throw;
+  }
+  if (world.rank != 0) return code;
+  held.release(fmt::format("{}: {}\n", arguments.scene, code == done ? "valid" : "not yet valid, patches lack a condition"));
+  if (code == done) print_omissions(arguments);
+  return code;
 }
 
 }  // namespace spindrift::app

@@ -273,7 +273,7 @@ ReadyScene read_scene(const std::string& path, const std::vector<std::string>& o
   coupling::Scenario scenario = coupling::read_scenario(document);
   return by_lines(document, [&] {
     coupling::require_memory(scenario, coupling::machine_memory());
-    return made_ready(std::move(scenario), document);
+    return at_rest(document, [&] { return made_ready(std::move(scenario), document); });
   });
 }
 
@@ -306,7 +306,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   // Every check has passed before the run directory is made.
   std::optional<ReadyScene> system;
   if (!scenario->has_flow())
-    system = by_lines(*document, [&] { return made_ready(*scenario, *document); });
+    system = by_lines(*document, [&] { return at_rest(*document, [&] { return made_ready(*scenario, *document); }); });
   else
     require_expected_columns(*document, scenario->output, columns_of_air_alone());
   require_writable(arguments, world.comm);

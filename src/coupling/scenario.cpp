@@ -284,6 +284,14 @@ void check_standing_actuator(scene::Document& document, const Scenario& s) {
   if (!s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
 }
 
+void check_flows(scene::Document& document, const aero::WindOptions& wind) {
+  constexpr double least = 1e-6;  // m/s: far below it the flow's own scales, squares of it among them, are no numbers any more
+  if (wind.speed_m_s <= 0.0)
+    document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+  else if (wind.speed_m_s < least)
+    document.problem("wind.speed_m_s", fmt::format("must be at least {:g} m/s: the resolved air flows", least));
+}
+
 /// Of a rotor that goes through a standing grid with its bodies.
 void check_carried_actuator(scene::Document& document, const Scenario& s) {
   const auto [rotor, hub_key] = placed_rotor(s);
@@ -293,7 +301,7 @@ void check_carried_actuator(scene::Document& document, const Scenario& s) {
                                               "start.air_steps",
                                               s.aero.model));
   if (s.aero.flow->start != "wind") document.problem("aero.flow.start", "must be \"wind\" where bodies carry the rotor");
-  if (s.wind.speed_m_s <= 0.0) document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+  check_flows(document, s.wind);
 }
 
 /// What of [control] the blades of resolved air can follow: those of a disc or of one sector are alike.
@@ -549,8 +557,7 @@ Scenario read_scenario(scene::Document& document) {
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
     if (!s.beams.empty()) document.problem("beams", "have no effect: there are no [bodies]");
-    if (s.wind.speed_m_s <= 0.0 && !has_resolved_rotor(s))
-      document.problem("wind.speed_m_s", "must be > 0: the resolved air flows");
+    if (!has_resolved_rotor(s)) check_flows(document, s.wind);
     document.finish();
     return s;
   }

@@ -172,6 +172,10 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     wrong("sea.tank.y_m", "has no effect: sea.particles.dimensions is 2", "sea.particles.dimensions");
   if (planar && t.sides_y != "wall")
     wrong("sea.tank.sides_y", "has no effect: sea.particles.dimensions is 2", "sea.particles.dimensions");
+  if (!(environment.gravity > 0.0) && !p.sound_speed_m_s)
+    wrong("sea.particles.sound_speed_m_s",
+          "is needed where environment.gravity_m_s2 is 0: else it follows from the weight of the water",
+          "environment.gravity_m_s2");
   if (!(t.top_m > -depth)) wrong("sea.tank.top_m", fmt::format("is below the bed at {} m", -depth));
   if (o.water.empty() && t.top_m < 0.0) wrong("sea.tank.top_m", "is below the still water at 0 m");
   if (deepest_water(o, depth) < 4.0 * d)

@@ -162,6 +162,7 @@ std::vector<OptionProblem> shape_problems(const SeaEnvironment& environment, con
 
 std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaEnvironment& environment) {
   if (options.model == "none") return {};
+  if (!(environment.gravity > 0.0)) return {{"environment.gravity_m_s2", "must be > 0 with [waves], which are waves of gravity"}};
   std::vector<OptionProblem> problems;
   const WaveModel& model = wave_models().named(options.model);
   if (std::ranges::find(model.keys, "height_m") == model.keys.end()) {  // a record

@@ -613,6 +613,27 @@ model = "morison"
         self.assertEqual(code, 2)
         self.assertIn("not yet valid, patches lack a condition", said.splitlines()[0])
 
+    def test_no_scene_is_called_valid_that_fails_later_and_a_start_that_cannot_be_is_refused_by_its_key(self):
+        walls = "{patch='wall',condition='slip'},{patch='farfield',condition='far_field'},{patch='outflow',condition='far_field'}"
+        line = "../tests/extremes/line.toml"
+        for scene, settings, key, begun in (
+                (line, ["moorings.line.bed_friction=1e6", "moorings.line.drag_coefficient=1e6", "moorings.line.bed_damping_Pa_s_m=1e12"], "moorings.line", True),
+                ("../tests/extremes/aerofoil.toml", [f"aero.flow.boundaries=[{walls},{{patch='roof',condition='slip'}}]"], "roof", True),
+                (line, ["moorings.line.bed_stiffness_Pa_m=1e15"], "moorings.line: moorings.line at t = 0 s: the line finds no rest", False),
+                ("validation/standing_wave/standing_wave.toml", ["environment.gravity_m_s2=0"], "environment.gravity_m_s2", False),
+                ("validation/dam_break/koshizuka_oka.toml", ["environment.gravity_m_s2=0"], "sea.particles.sound_speed_m_s", False),
+                ("validation/cylinder_re100/cylinder.toml", ["wind.speed_m_s=5e-324"], "wind.speed_m_s", False)):
+            with self.subTest(scene=scene, settings=settings):
+                code, said, errors = checked(scene, tuple(settings))
+                self.assertEqual(code, 2, errors)
+                self.assertIn(key, errors)
+                self.assertEqual(said.split("\n")[0], f"{ROOT / 'inputs' / scene}: refused, for the reason at the end" if begun else "")
+                if begun:
+                    continue
+                done = spindrift("run", ROOT / "inputs" / scene, "--quiet", "--no-report", "--out", "/nowhere/run", settings=settings)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(key, done.stderr)
+
     def test_what_throws_a_body_off_is_named(self):
         said = checked("leble_barakos/case1_engineering.toml", ("moorings.line_downwind.anchor_m=[162.635,0.0,-500.0]",))[1]
         self.assertRegex(said, r"bodies\.platform: starts with an acceleration of \S+ m/s2, mostly by moorings")
