@@ -22,7 +22,7 @@ import subprocess
 import sys
 import time
 
-DONE, FAILED, MACHINE_FAILURE, STOPPED, OUT_OF_REACH = 0, 3, 4, 5, 6
+DONE, BAD_INPUT, FAILED, MACHINE_FAILURE, STOPPED, OUT_OF_REACH = 0, 2, 3, 4, 5, 6
 
 
 def say(text=""):
@@ -261,6 +261,20 @@ def within_budget(plan, wanted, known, before=0.0):
     return left, [f"{run['name']} ({duration(run['forecast_core_s'])})" for _, run in wanted if run["name"] not in kept]
 
 
+def nothing_within(plan):
+    """Of a budget that leaves no run: what would do."""
+    each = [(run["forecast_core_s"], run["name"]) for rung in plan["rungs"] if not rung["later"] for run in rung["runs"]]
+    least, cheapest = min(each)
+
+    def up(core_s):  # to three digits
+        hours = core_s / 3600.0
+        last = 10.0 ** (math.floor(math.log10(hours)) - 2)
+        return f"{math.ceil(hours / last) * last:.3g}"
+
+    return (f"{plan['study']}: study.budget_core_h = {plan['options']['budget_core_h']:g}: is less than the forecast of any run, nothing ran; "
+            f"the cheapest, '{cheapest}', needs {up(least)}, all {len(each)} need {up(sum(cost for cost, _ in each))}")
+
+
 def forecast_table(plan, wanted, runs):
     cost = sum(r["forecast_core_s"] for _, r in wanted if r["name"] not in runs.results)
     say(f"{len(wanted)} runs, {sum(r['name'] in runs.results for _, r in wanted)} of them there already; forecast of the rest: "
@@ -322,6 +336,13 @@ def print_plan(plan, runs, dry=False):
     return wanted, left_out
 
 
+def ended_by_budget(plan, wanted):
+    if wanted:
+        return DONE
+    print(f"error: {nothing_within(plan)}", file=sys.stderr)
+    return BAD_INPUT
+
+
 def main():
     parser = argparse.ArgumentParser(prog="spindrift study")
     parser.add_argument("plan", type=pathlib.Path)
@@ -337,8 +358,8 @@ def main():
     plan = json.loads(given.plan.read_text(encoding="utf-8"))
     if given.dry_run:
         given.plan.unlink()
-        print_plan(plan, Runs(given.dry_run.resolve(), plan), dry=True)
-        return DONE
+        wanted, _ = print_plan(plan, Runs(given.dry_run.resolve(), plan), dry=True)
+        return ended_by_budget(plan, wanted)
     folder = given.plan.parent.resolve()
     lock = open(folder / "lock", "w")
     try:
@@ -348,6 +369,8 @@ def main():
         return MACHINE_FAILURE
     runs = Runs(folder, plan)
     wanted, left_out = print_plan(plan, runs)
+    if code := ended_by_budget(plan, wanted):
+        return code
 
     history = study_histories.reader(folder)
 

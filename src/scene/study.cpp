@@ -216,6 +216,45 @@ void check_points(Document& doc, const std::string& at, const AxisOptions& axis)
     check_form(doc, fmt::format("{}.points[{}].set", at, i), axis.points[i].set);
 }
 
+/// Keys that the points of an axis set, each as it is written there and in its parts; what is no key is told elsewhere.
+std::vector<std::pair<std::string, std::vector<std::string>>> keys_of(const AxisOptions& axis) {
+  std::vector<std::string> texts{axis.key};
+  for (const PointOptions& point : axis.points)
+    for (const std::string& set : point.set) texts.push_back(set.substr(0, std::min(set.find('='), set.size())));
+  std::vector<std::pair<std::string, std::vector<std::string>>> keys;
+  for (std::string text : texts) {
+    text.erase(text.find_last_not_of(' ') + 1);
+    const auto steps = parse_key(text);
+    if (!steps) continue;
+    auto& parts = keys.emplace_back(text, std::vector<std::string>()).second;
+    for (const KeyStep& step : *steps) {
+      parts.push_back(step.name);
+      for (const std::size_t index : step.indices) parts.push_back(std::to_string(index));
+    }
+  }
+  return keys;
+}
+
+/// Of two axes that set one key, or a key within it, the second would win at every point.
+void check_axes_apart(Document& doc, const Study& study) {
+  std::vector<std::pair<std::string, const AxisOptions*>> all;
+  for (const auto& [name, axis] : study.axes) all.emplace_back("axes." + name, &axis);
+  if (study.replicas) all.emplace_back("replicas", &*study.replicas);
+  const auto both = [](const AxisOptions& a, const AxisOptions& b) -> std::string {
+    for (const auto& [key, parts] : keys_of(a))
+      for (const auto& [other, others] : keys_of(b)) {
+        const auto [here, there] = std::mismatch(parts.begin(), parts.end(), others.begin(), others.end());
+        if (here == parts.end() || there == others.end()) return parts.size() >= others.size() ? key : other;
+      }
+    return "";
+  };
+  for (std::size_t b = 1; b < all.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      if (const std::string key = both(*all[a].second, *all[b].second); !key.empty())
+        doc.problem(all[b].first + (all[b].second->key.empty() ? ".points" : ".key"),
+                    fmt::format("sets {}, as {} does: a key is on one axis alone", key, all[a].first));
+}
+
 /// Fit for a directory: 'sea.table="a b.csv"' gives a_b.csv.
 std::string short_name(std::string text) {
   std::erase(text, '"');
@@ -312,6 +351,7 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
   if (study.variants.empty() && study.study.scene.empty()) doc.problem("study.scene", "is required where there are no variants");
   for (const auto& [name, axis] : study.axes) check_points(doc, "axes." + name, axis);
   if (study.replicas) check_points(doc, "replicas", *study.replicas);
+  check_axes_apart(doc, study);
   if (!study.reference)  // a sweep: values alone
     for (const auto& [name, metric] : study.metrics) {
       const auto needs = [&, &name = name](const char* key) {

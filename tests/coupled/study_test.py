@@ -3,6 +3,7 @@ Usage: study_test.py SPINDRIFT [TEST...]. SPDX-License-Identifier: Apache-2.0"""
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -138,12 +139,26 @@ measure = "last"
         for old, new, said in (('"buoy.z_m"', '"buoy.z_mm"', 'did you mean "buoy.z_m"'),
                                ("waves.components=40", "waves.component=40", "waves.component"),
                                ('variant = "base-step_0.025"', 'variant = "base-step_0.25"', "is no run of this study"),
+                               ("[replicas]", '[axes.again]\nkey = "time.\\"step_s\\""\nvalues = [0.1, 0.05]\n[replicas]', 'sets time.step_s, as axes.step does: a key is on one axis alone'),
+                               ('key = "waves.seed"\nvalues = [1, 2, 3, 4]', 'points = [{name = "a", set = ["time.step_s=0.2"]}]', "replicas.points: sets time.step_s, as axes.step does"),
                                ('column = "buoy.z_m"', 'from_s = 40.0\ncolumn = "buoy.z_m"', "metrics.heave.from_s = 40: must be before the end of base-step_0.1, 10 s"),
                                ("[metrics.pitch]", '[load_cases]\nfrom_s = 40.0\ncolumns = ["buoy.z_m"]\n[metrics.pitch]', "load_cases.from_s = 40: must be before the end")):
             done = self.study(STUDY.replace(old, new))
             self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
             self.assertIn(said, done.stdout + done.stderr)
             self.assertFalse(self.ledgers())
+
+    def test_a_budget_that_no_run_is_within_is_refused_with_one_that_would_do(self):
+        sweep = "".join(line + "\n" for line in STUDY.splitlines() if line not in ("[reference]", 'variant = "base-step_0.025"', "relative = true", "target = 0.05"))
+        for more in ((), ("--dry-run",)):
+            done = self.study(sweep.replace("repeats = 1", "repeats = 1\nbudget_core_h = 1e-9"), *more)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            needs = re.search(r"study.budget_core_h = 1e-09: is less than .* the cheapest, 'base-step_\S+', needs (\S+), all 12 need (\S+)", done.stderr)
+            self.assertTrue(needs, done.stderr)
+            self.assertLessEqual(float(needs[1]), 1.01 * float(needs[2]) / 12)
+            self.assertFalse(self.ledgers())
+        done = self.study(sweep.replace("repeats = 1", f"repeats = 1\nbudget_core_h = {2 * float(needs[1])}"), "--dry-run")  # forecasts scatter
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_a_reference_from_elsewhere_covers_the_time_that_is_compared(self):
         file = self.path / "elsewhere.csv"
