@@ -49,6 +49,18 @@ const CLI::Validator time_of_run(
     },
     "");
 
+/// As CLI::Range, which lets pass what is no number.
+CLI::Validator in_range(double low, double high) {
+  return CLI::Validator(
+      [low, high](std::string& text) {
+        double value = 0.0;
+        const bool read = CLI::detail::lexical_cast(text, value);
+        return read && value >= low && value <= high ? std::string()
+                                                     : fmt::format("Value {} not in range {:g} to {:g}", text, low, high);
+      },
+      CLI::Range(low, high).get_description());
+}
+
 CLI::Validator ends_in(std::vector<std::string> endings) {
   return CLI::Validator(
       [endings](std::string& file) {
@@ -109,9 +121,9 @@ void add_replay(CLI::App& cli, Command& chosen) {
       ->add_option("--network", arguments->network,
                    "Latency [us] and bandwidth [GB/s] between nodes, then within a node (default: 1.5,12,0.5,6)")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(in_range(0.0, 1e9));
   command->add_option("--skew", arguments->skew, "Standard deviation of the ranks' speeds, 0 to 0.5 (default: 0)")
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(in_range(0.0, 0.5));
   command
       ->add_option("--copies", arguments->copies,
                    "The recorded work so many times side by side, bordering each other, on all ranks together (default: 1)")
@@ -153,7 +165,7 @@ void add_picture(CLI::App& cli, Command& chosen, bool film) {
   command->add_option("--camera", arguments->camera, "From where: scene, side, front, top, rotor")
       ->check(CLI::IsMember({"scene", "side", "front", "top", "rotor"}));
   if (film) {
-    command->add_option("--seconds", arguments->seconds, "Length of the film [s]")->check(CLI::Range(0.5, 600.0));
+    command->add_option("--seconds", arguments->seconds, "Length of the film [s]")->check(in_range(0.5, 600.0));
     command->add_option("--rate", arguments->frames_per_second, "Frames per second")->check(CLI::Range(1, 60));
     command->footer(
         "Examples:\n  spindrift film runs/demo/coupled\n  spindrift film runs/demo/coupled --camera side -o demo.webm\n"
@@ -229,7 +241,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     command
         ->add_option("--trial-s", arguments->trial_s,
                      "With --columns: processor time that all runs it tries may take [s] (default: 120)")
-        ->check(CLI::Range(1.0, 1e9));
+        ->check(in_range(1.0, 1e9));
     command->add_flag("--calibrate", arguments->calibrate, "Measure what a resolved rotor costs on this machine (some seconds)");
     command->footer(
         "Examples:\n"
@@ -296,7 +308,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto markdown = std::make_shared<bool>(false);
     CLI::App* command = cli.add_subcommand("reference", "Every scene key with type, unit, default, range and a sentence");
     command->add_option("topic", *topic, "A section or a key; with --columns what columns begin with, as sea, or a word");
-    command->add_flag("--markdown", *markdown, "As inputs/REFERENCE.md");
+    command->add_flag("--markdown", *markdown, "All of it, as inputs/REFERENCE.md")->excludes("topic");
     command->footer(
         "Examples:\n"
         "  spindrift reference waves\n"
@@ -304,7 +316,8 @@ void add_commands(CLI::App& cli, Command& chosen) {
         "  spindrift reference precone_deg\n"
         "  spindrift reference --columns rotor");
     const auto columns = std::make_shared<bool>(false);
-    command->add_flag("--columns", *columns, "Every column of history.csv instead, as in docs/reference/columns.md");
+    command->add_flag("--columns", *columns, "Every column of history.csv instead, as in docs/reference/columns.md")
+        ->excludes("--markdown");
     command->callback([=, &chosen] {
       chosen = [=](const auto& world) {
         return *columns ? reference_columns(*topic, world) : reference(*topic, *markdown, world);
@@ -335,7 +348,7 @@ void add_commands(CLI::App& cli, Command& chosen) {
     auto markdown = std::make_shared<bool>(false);
     CLI::App* command = cli.add_subcommand("help", "The same as --help; with a command, the help of that command");
     command->add_option("command", *topic, "A command");
-    command->add_flag("--markdown", *markdown, "Every command, as docs/reference/commands.md");
+    command->add_flag("--markdown", *markdown, "Every command, as docs/reference/commands.md")->excludes("command");
     command->footer("Examples:\n  spindrift help run");
     command->callback([=, &cli, &chosen] {
       if (*markdown) {

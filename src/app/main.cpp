@@ -126,9 +126,27 @@ std::string words_too_many(int argc, char** argv, const std::vector<std::string>
                      left.empty() ? "" : left.front(), argv[1]);
 }
 
+/// What is wrong with a list of values, "1,,2", from which the parser drops what is empty. Empty where nothing is.
+std::string gap_in_list(const CLI::App& cli, int argc, char** argv) {
+  const auto commands = cli.get_subcommands([&](const CLI::App* one) { return argc > 1 && one->get_name() == argv[1]; });
+  if (commands.empty()) return {};
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    const CLI::Option* option = name.starts_with("--") ? commands.front()->get_option_no_throw(name) : nullptr;
+    if (!option || option->get_delimiter() == '\0') continue;
+    const std::string list = name.size() < word.size() ? word.substr(name.size() + 1) : i + 1 < argc ? argv[i + 1] : "";
+    const std::string between = "," + list + ",";
+    if (between.find(",,") != std::string::npos)
+      return fmt::format("{}: {} {}: a value is missing beside a comma; write values alone between commas, as A,B", argv[1], name,
+                         list.empty() ? "\"\"" : list);
+  }
+  return {};
+}
+
 /// What is wrong with the command line; empty where nothing is. --help and --version leave by CLI::Success.
 std::string misread(CLI::App& cli, int argc, char** argv) {
   if (const std::string unknown = unknown_command(cli, argc, argv); !unknown.empty()) return unknown;
+  if (const std::string gap = gap_in_list(cli, argc, argv); !gap.empty()) return gap;
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ExtrasError& e) {

@@ -38,8 +38,9 @@ Cluster cluster_of(const ReplayArguments& arguments, int ranks, int threads, dou
         fmt::format("--network: {} numbers; give latency [us] and bandwidth [GB/s] between nodes, or these and "
                     "both within a node",
                     network.size()));
-  if (std::ranges::find(network, 0.0) == network.begin() + 1 && network.size() > 1)
-    throw io::InputError("--network: a bandwidth of 0 GB/s carries nothing");
+  for (std::size_t n = 1; n < network.size(); n += 2)
+    if (!(network[n] > 0.0))
+      throw io::InputError(fmt::format("--network: a bandwidth of {:g} GB/s carries nothing; give more than 0", network[n]));
   if (network.size() >= 2) cluster.between = {1e-6 * network[0], 1e9 * network[1]};
   if (network.size() == 4) cluster.within = {1e-6 * network[2], 1e9 * network[3]};
   cluster.skew = arguments.skew, cluster.task_overhead_s = overhead_s;

@@ -93,6 +93,13 @@ std::optional<std::pair<std::int64_t, std::int64_t>> windows_of(const std::strin
   return std::pair(first, last);
 }
 
+/// `held`: windows before t = 0, in which bodies are held.
+void require_first_window(const std::string& windows, std::int64_t held) {
+  const auto range = windows_of(windows);
+  if (range && range->first < 1 - held)
+    throw io::InputError(fmt::format("--windows {}: the first window of this run is {}", windows, 1 - held));
+}
+
 /// A file that is written at the end of the run can be written at its start.
 void require_writable(const RunArguments& arguments, MPI_Comm world) {
   const std::string& file = arguments.record_graph;
@@ -309,6 +316,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
     system = by_lines(*document, [&] { return at_rest(*document, [&] { return made_ready(*scenario, *document); }); });
   else
     require_expected_columns(*document, scenario->output, columns_of_air_alone());
+  require_first_window(arguments.windows, system ? system->floating->timeline().held_windows() : 0);
   require_writable(arguments, world.comm);
   io::RunDirectory directory = open_directory(arguments, world.comm);
   stop.watch(scenario->runtime.wall_limit_s, directory.stop());

@@ -552,6 +552,9 @@ Scenario read_scenario(scene::Document& document) {
   if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
+    const std::string bodiless = "has no effect: there are no [bodies], and the air takes a step in each time.window_s";
+    if (s.time.step_s) document.problem("time.step_s", bodiless);
+    if (s.time.integrator != TimeOptions().integrator) document.problem("time.integrator", bodiless);
     if (s.has_actuator()) check_standing_actuator(document, s);
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");

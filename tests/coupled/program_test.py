@@ -264,7 +264,15 @@ class Program(Folder):
         refused("end before they begin", "run", CASE1, "--out", self.out, "--trace", "--windows", "5:3")
         refused("--trace and --record-graph", "run", CASE1, "--out", self.out, "--windows", "3")
         refused("No such file", "run", CASE1, "--out", self.out, "--record-graph", "/nonexistent/graph.jsonl")
+        refused("--windows -3:2: the first window of this run is 1", "run", CASE1, "--out", self.out, "--trace", "--windows", "-3:2")
         self.assertFalse(self.out.exists())
+        for words, said in ((("--network", "nan,nan,nan,nan"), "--network: Value nan not in range 0 to"), (("--network", "0,0,0,0"), "a bandwidth of 0 GB/s"),
+                            (("--network", "1,2,3,0"), "a bandwidth of 0 GB/s"), (("--ranks", "1,,2"), "--ranks 1,,2: a value is missing"),
+                            (("--ranks=1,2,",), "--ranks 1,2,: a value is missing"), (("--skew", "nan"), "--skew: Value nan not in range 0 to 0.5")):
+            refused(said, "replay", "/nonexistent/graph.jsonl", *words)
+        refused("--trial-s: Value nan not in range 1 to", "check", CASE1, "--trial-s", "nan")
+        refused("excludes --markdown", "reference", "waves", "--markdown")
+        refused("excludes --markdown", "help", "run", "--markdown")
         refused("line 1", "replay", CASE1)
         refused("No such file", "replay", "/nonexistent/graph.jsonl")
 
@@ -612,6 +620,18 @@ model = "morison"
         code, said, _ = checked("tutorials/wing_section.toml", ("aero.flow.boundaries=[]",))
         self.assertEqual(code, 2)
         self.assertIn("not yet valid, patches lack a condition", said.splitlines()[0])
+
+    def test_steps_of_bodies_have_no_effect_in_air_alone_and_the_scene_as_it_ran_is_accepted(self):
+        cylinder = ROOT / "inputs/validation/cylinder_re100/cylinder.toml"
+        for setting in ("time.step_s=0.01", "time.integrator=symplectic"):
+            done = spindrift("check", cylinder, settings=[setting])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"{setting.split('=')[0]} = ", done.stderr)
+        with tempfile.TemporaryDirectory(prefix="spindrift_test_") as folder:
+            run = spindrift("run", cylinder, "--out", folder + "/run", "--until", "0", "--no-report", "--quiet")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("integrator", pathlib.Path(folder, "run/scene.toml").read_text())
+            self.assertEqual(spindrift("check", folder + "/run/scene.toml").returncode, 0)
 
     def test_no_scene_is_called_valid_that_fails_later_and_a_start_that_cannot_be_is_refused_by_its_key(self):
         walls = "{patch='wall',condition='slip'},{patch='farfield',condition='far_field'},{patch='outflow',condition='far_field'}"
