@@ -160,7 +160,7 @@ class Program(Folder):
             self.assertAlmostEqual(eight["wall_s"] / every[placement, 8]["wall_s"], 1.0, delta=0.1)
             self.assertAlmostEqual(many["work_s"], 256 * one["work_s"], delta=1e-6 * many["work_s"])
             self.assertAlmostEqual(many["weak_efficiency"], one["wall_s"] / many["wall_s"], delta=1e-9)
-            self.assertLess(many["weak_efficiency"], 1.1)  # what a busy computer recorded may be dealt out better by chance
+            self.assertGreater(many["wall_s"], 0.9 * one["work_s"] / 2)  # of two threads on each node; ranks differ in speed by 2 %
             self.assertGreater(eight["messages"], 0)
             if placement != "bulk-synchronous":
                 self.assertAlmostEqual(sum(link["s"] for link in many["critical_path"]), many["critical_path_s"], delta=1e-9)
