@@ -3,8 +3,6 @@
 // in the same words. Tested in tests/coupled/saved_start_test.py and coupled_system_test.py. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mpi.h>
-
 #include <cstdint>
 #include <string>
 
