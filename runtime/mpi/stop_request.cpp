@@ -24,7 +24,7 @@ constexpr std::array<std::pair<int, const char*>, 6> signals{{{SIGTERM, "SIGTERM
 constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max(), second_ns = 1'000'000'000;
 
 // Of the one request that lives; a signal handler can reach nothing else.
-std::atomic<bool> lives = false;
+std::atomic<bool> lives = false, awaited = false;
 std::atomic<int> cause = 0, later = 0;
 std::atomic<std::int64_t> caught_ns = 0, limit_ns = never, margin_ns = 0, looked_ns = 0;
 std::string watched;  // written before threads look
@@ -72,8 +72,14 @@ std::string reason(int why) {
 
 StopAsked::StopAsked() : std::runtime_error(cause.load() != 0 ? reason(cause.load()) : "stopped on request") {}
 
+void StopRequest::catch_signals() {
+  cause = 0, caught_ns = 0, awaited = true;
+  handle_all(note_signal);
+}
+
 StopRequest::StopRequest() {
-  cause = 0, caught_ns = 0, margin_ns = 0, looked_ns = 0, limit_ns = never;
+  if (!awaited.exchange(false)) cause = 0, caught_ns = 0;
+  margin_ns = 0, looked_ns = 0, limit_ns = never;
   watched.clear();
   lives = true;
   handle_all(note_signal);

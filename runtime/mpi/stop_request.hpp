@@ -22,6 +22,8 @@ class StopRequest {
  public:
   /// Catches TERM, INT, USR1, USR2, HUP and XCPU from now on; a second signal, a second later or more, ends the program at once.
   StopRequest();
+  /// Catches them for the one that is to come, which then knows of a signal that came before it.
+  static void catch_signals();
   /// As with `watch`.
   explicit StopRequest(double wall_limit_s, std::filesystem::path file = {});
   ~StopRequest();  ///< gives the signals back, unless it is over

@@ -179,6 +179,7 @@ void give_memory_back() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "run") runtime::StopRequest::catch_signals();  // MPI takes its time to start
   give_memory_back();
   CLI::App cli{"Coupled simulation of floating offshore wind turbines.", "spindrift"};
   bool verbose = false;  // parsed before --version is answered

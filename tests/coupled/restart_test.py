@@ -2,6 +2,7 @@
 came as far as a checkpoint, two runs in one folder. Usage: restart_test.py SPINDRIFT [CLASS...]"""
 import json
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -157,6 +158,19 @@ class Folders(Runs):
             first.send_signal(signal.SIGTERM)
             self.assertEqual(first.wait(60), 5)
         self.run_case("--restart", "--until", json.loads((self.out / "summary.json").read_text())["time"]["end_s"] + 100.0, *long_run)
+
+    def test_a_signal_before_the_run_has_begun_ends_it_with_5_and_says_so(self):
+        started = subprocess.Popen([PROGRAM, "run", CASE3, "--out", self.out, "--no-report"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        term = 1 << (signal.SIGTERM - 1)
+        status = lambda: dict(line.split(":", 1) for line in pathlib.Path(f"/proc/{started.pid}/status").read_text().splitlines())
+        deadline = time.time() + 60
+        while not int((now := status())["SigCgt"], 16) & term and time.time() < deadline:
+            pass
+        self.assertEqual(now["Threads"].strip(), "1")  # MPI, which has threads of its own, was not there yet
+        started.send_signal(signal.SIGTERM)
+        said = started.communicate(timeout=60)[0]
+        self.assertEqual(started.returncode, 5, said)
+        self.assertIn("stopped on request (SIGTERM), before the ", said)
 
     def test_a_checkpoint_that_may_not_be_read_or_is_of_another_version_stays_where_it_is(self):
         self.run_case("--until", 1.0)

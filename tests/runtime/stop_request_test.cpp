@@ -48,6 +48,18 @@ TEST_CASE("every signal that queues and terminals send is a request, with its na
   CHECK_FALSE(StopRequest::asked());
 }
 
+TEST_CASE("a signal that comes before there is anything to stop is not lost", "[runtime][faults][fast]") {
+  StopRequest::catch_signals();
+  ::raise(SIGTERM);
+  {
+    const StopRequest stop;
+    CHECK(StopRequest::asked());
+    CHECK_THAT(stop.agreed(MPI_COMM_SELF), Contains("SIGTERM"));
+  }
+  const StopRequest next;
+  CHECK_FALSE(StopRequest::asked());
+}
+
 TEST_CASE("the limit on wall time leaves room for saving", "[runtime][faults][fast]") {
   StopRequest stop(3600.0);
   CHECK_FALSE(StopRequest::asked());
