@@ -83,12 +83,12 @@ void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const 
 }
 
 /// Where the scene shows how high a body reaches, none of its mass is beyond: hulls with their towers have .4 to .8 of the
-/// greatest radius, the platform of Leble & Barakos (2016) 1.02. Where it does not, a spar may carry a turbine that is part of
+/// greatest radius, the platform of Leble & Barakos (2016) 1.23. Where it does not, a spar may carry a turbine that is part of
 /// its mass: .2 of it, with which it hardly floats upright, 150 m over a hull of 130 m makes 1.03, the OC3 spar has .8. Of wider
 /// floats no such bound holds.
 void doubt_reach_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
                             const BodySurroundings& around) {
-  constexpr double most_wide = 1.15, most_spar = 1.03, slender = 4.0;
+  constexpr double most_wide = 1.3, most_spar = 1.03, slender = 4.0;
   Eigen::AlignedBox3d shapes;
   for (const Eigen::AlignedBox3d& piece : pieces(body)) shapes.extend(piece);
   const bool spar = shapes.contains(body.centre_m) && shapes.sizes().z() > slender * shapes.sizes().head<2>().maxCoeff();
