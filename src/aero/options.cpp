@@ -249,6 +249,24 @@ const scene::Section<RotorOptions>& rotors_section() {
   return section;
 }
 
+void check_blade_keys(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, const std::string& section) {
+  if (aero.model != "bem") {
+    if (!rotor.blade_masses.empty())
+      doc.problem(section + ".blade_masses", "has no effect: only aero.model = \"bem\" knows the loads along a blade",
+                  "aero.model");
+    if (!rotor.blade_structure.empty())
+      doc.problem(section + ".blade_structure", "has no effect: only aero.model = \"bem\" has blades that bend", "aero.model");
+  }
+  if (!rotor.diameter_m || rotor.turbine.empty()) return;
+  try {
+    const double blades = 2.0 * read_turbine(rotor.turbine).planform.span.back();  // cone and bending make the disc smaller
+    if (std::abs(*rotor.diameter_m / blades - 1.0) > 0.1)
+      doc.problem(section + ".diameter_m", fmt::format("is {:.6g} m, but the blades of {} reach {:.6g} m: leave it out",
+                                                       *rotor.diameter_m, rotor.turbine, blades));
+  } catch (const scene::SceneError&) {  // the turbine's own keys tell
+  }
+}
+
 void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
                  std::span<const std::string> joints, const std::string& section) {
   const auto own = [&](const char* key) { return section + "." + key; };
@@ -276,26 +294,18 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
   if (aero.model == "bem" && rotor.turbine.empty())
     doc.problem(own("turbine"), "must name a turbine file: aero.model \"bem\" needs the blades");
   try_file(own("turbine"), rotor.turbine, [&] {
-    const Turbine turbine = read_turbine(rotor.turbine);
-    const double blades = 2.0 * turbine.planform.span.back();  // along them: cone and bending make the disc smaller
-    if (rotor.diameter_m && std::abs(*rotor.diameter_m / blades - 1.0) > 0.1)
-      doc.problem(own("diameter_m"), fmt::format("is {:.6g} m, but the blades of {} reach {:.6g} m: leave it out",
-                                                 *rotor.diameter_m, rotor.turbine, blades));
-    const bool depends = depends_on_reynolds(turbine);
+    const bool depends = depends_on_reynolds(read_turbine(rotor.turbine));
     if (aero.kinematic_viscosity_m2_s && !depends)
       doc.problem("aero.kinematic_viscosity_m2_s",
                   fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));
   });
-  if (!rotor.blade_masses.empty() && aero.model != "bem")
-    doc.problem(own("blade_masses"), "has no effect: only aero.model = \"bem\" knows the loads along a blade", "aero.model");
-  else if (!rotor.turbine.empty())
+  check_blade_keys(doc, aero, rotor, section);
+  if (aero.model == "bem" && !rotor.turbine.empty())
     try_file(own("blade_masses"), rotor.blade_masses,
              [&] { read_blade_masses(read_turbine(rotor.turbine), rotor.blade_masses); });
-  if (!rotor.blade_structure.empty() && aero.model != "bem")
-    doc.problem(own("blade_structure"), "has no effect: only aero.model = \"bem\" has blades that bend", "aero.model");
-  else if (!rotor.blade_structure.empty() && !rotor.blade_masses.empty())
+  if (aero.model == "bem" && !rotor.blade_structure.empty() && !rotor.blade_masses.empty())
     doc.problem(own("blade_masses"), "is given beside rotor.blade_structure, which has masses too: one of the two");
-  else if (!rotor.turbine.empty())
+  else if (aero.model == "bem" && !rotor.turbine.empty())
     try_file(own("blade_structure"), rotor.blade_structure,
              [&] { read_blade_structure(read_turbine(rotor.turbine), rotor.blade_structure); });
   try_file(own("operation"), rotor.operation, [&] { read_operation(rotor.operation); });

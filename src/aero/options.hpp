@@ -95,6 +95,8 @@ const scene::Section<RotorOptions>& rotors_section();
 
 /// Rules between sections: the body and joint exist, the rotor has what its model needs, data files are readable. `section`:
 /// the rotor's, "rotor" or "rotors.NAME".
+/// Keys of blades that a model without them has no use for, and a diameter that the turbine's blades do not have.
+void check_blade_keys(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, const std::string& section);
 void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptions& rotor, std::span<const std::string> bodies,
                  std::span<const std::string> joints, const std::string& section = "rotor");
 

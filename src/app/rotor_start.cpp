@@ -20,7 +20,7 @@ namespace spindrift::app {
 namespace {
 
 struct Working {
-  double wind;                       ///< undisturbed, at the hub, along the axis [m/s]
+  double wind;                       ///< undisturbed, at the hub [m/s]
   double speed;                      ///< [rad/s]
   std::optional<double> pitch;       ///< [rad]
   double radius;                     ///< [m]; 0 where the scene does not say
@@ -57,12 +57,13 @@ void print(const coupling::Scenario& s, const Working& now) {
   if (now.pitch) fmt::print(", blades at {:.4g} degrees", *now.pitch / radians_per_degree);
   const bool blown = s.aero.model != "prescribed" && now.wind > 0.0;
   if (blown) fmt::print(", wind of {:.4g} m/s at the hub", now.wind);
-  if (blown && now.radius > 0.0) fmt::print(", tip-speed ratio {:.3g}", std::abs(now.speed) * now.radius / now.wind);
+  const bool alike = blown && now.radius > 0.0 && !s.wind.turbulence;  // a gust at the hub is not the wind of the disc
+  if (alike) fmt::print(", tip-speed ratio {:.3g}", std::abs(now.speed) * now.radius / now.wind);
   fmt::print("\n");
   if (!now.load_by.empty()) {
     fmt::print("  {:<22}thrust {:.4g} kN", now.load_by, 1e-3 * now.thrust);
     if (now.has_power) fmt::print(", power {:.4g} MW", 1e-6 * now.power);
-    if (blown && now.radius > 0.0) {
+    if (alike) {
       const double pressure = 0.5 * s.environment.air_density_kg_m3 * now.wind * now.wind * pi * now.radius * now.radius;
       fmt::print("; CT {:.3f}", now.thrust / pressure);
       if (now.has_power) fmt::print(", CP {:.3f}", now.power / (pressure * now.wind));
@@ -70,14 +71,15 @@ void print(const coupling::Scenario& s, const Working& now) {
     fmt::print("\n");
   }
   if (blown && !s.rotor.operation.empty())
-    fmt::print("  {:<22}{}\n", "operating table", of_table(aero::read_operation(s.rotor.operation), now, now.has_power));
+    fmt::print("  {:<22}{}\n", "operating table",
+               of_table(aero::read_operation(s.rotor.operation), now, now.has_power && !s.wind.turbulence));
 }
 
 /// `s`: the scene with this rotor alone.
 void print_at_start(const coupling::Scenario& s, const aero::RotorLoads& rotor, const coupling::Start& start) {
   const aero::RotorState state = rotor.state(0.0, start.state.motions);
   const aero::RotorLoad load = rotor.load(0.0, state);
-  Working now{.wind = aero::relative_wind(rotor.wind(), 0.0, state.hub, Eigen::Vector3d::Zero(), state.axis),
+  Working now{.wind = rotor.wind().at(0.0, state.hub).norm(),
               .speed = state.speed,
               .pitch = {},
               .radius = coupling::rotor_radius(s),
@@ -88,7 +90,9 @@ void print_at_start(const coupling::Scenario& s, const aero::RotorLoads& rotor, 
   const bool parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
   if (load_model(s) == "blade elements" && !parked) now.pitch = s.rotor.blade_pitch;
   const aero::PeakShaving* shaving = rotor.shaving();
-  if (shaving && now.pitch) now.pitch = std::max(*now.pitch, shaving->least_pitch(now.wind));
+  if (shaving && now.pitch)
+    now.pitch = std::max(
+        *now.pitch, shaving->least_pitch(aero::relative_wind(rotor.wind(), 0.0, state.hub, Eigen::Vector3d::Zero(), state.axis)));
   print(s, now);
   if (shaving)
     fmt::print(
@@ -108,9 +112,8 @@ void print_rotors_at_start(coupling::FloatingSystem& floating, const coupling::S
 
 void print_rotor_at_start(const coupling::Scenario& s) {
   const aero::RotorOptions rotor = coupling::placed_rotor(s).rotor;
-  const Eigen::Vector3d axis = rotor.axis.normalized();
   const aero::Wind wind = aero::wind_of(s.wind, coupling::wind_site(s));
-  Working now{.wind = wind.at(0.0, rotor.hub_m).dot(axis),
+  Working now{.wind = wind.at(0.0, rotor.hub_m).norm(),
               .speed = rotor.speed,
               .pitch = rotor.blade_pitch,
               .radius = coupling::rotor_radius(s),

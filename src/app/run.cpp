@@ -383,7 +383,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
                     : run::run_flow(*scenario, directory, parts, settings, stop);
     });
   });
-  if (world.rank == 0)
+  if (world.rank == 0 && summary.exit_code != done)  // else it was warned of
     for (const std::string& trouble : summary.numerical_trouble) spdlog::error("{}", trouble);
   write_openfast_file(summary, directory, scenario->output.openfast, title, world.comm);
   complete(summary);

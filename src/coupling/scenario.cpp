@@ -530,8 +530,10 @@ Scenario read_scenario(scene::Document& document) {
   if (s.has_given_waves() && !s.waves.ramp_s) s.waves.ramp_s = sea::growth_time(s.waves);
   s.moorings = document.read_named(moorings::line_section());
   s.junctions = document.read_named(moorings::junction_section());
-  s.coupling = document.read_where(s.has_rotor(), coupling_section(), "aero.model is none, there are no two parts to couple",
-                                   "aero.model");
+  s.coupling = document.read_where(
+      s.has_rotor(), coupling_section(),
+      (s.resolves_air() ? "without [bodies]" : "aero.model is none,") + std::string(" there are no two parts to couple"),
+      "aero.model");
   s.start = document.read(start_section());
   s.runtime = document.read(runtime_section());
   s.output = document.read(output_section());
@@ -548,7 +550,10 @@ Scenario read_scenario(scene::Document& document) {
        {std::pair{"start.air", !s.start.air.empty()}, std::pair{"output.air_interval_s", s.output.air_interval_s.has_value()}})
     if (!(s.has_rotor() && s.resolves_air()) && given)
       document.problem(key, "has no effect: there is no resolved rotor on a body");
-  if (!s.has_rotor() && s.start.ramp_s > 0.0) document.problem("start.ramp_s", "has no effect: aero.model is none", "aero.model");
+  if (!s.has_rotor() && s.start.ramp_s > 0.0)
+    document.problem("start.ramp_s",
+                     s.resolves_air() ? "has no effect: there are no [bodies]" : "has no effect: aero.model is none",
+                     "aero.model");
   if (s.resolves_air() && s.aero.grid && s.aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid of a rotor goes with the rotor");
   if (s.has_flow()) {
@@ -559,7 +564,13 @@ Scenario read_scenario(scene::Document& document) {
     if (has_resolved_rotor(s)) aero::check_resolved_rotor(document, s.aero, s.rotor, flow_wind(s), aero::wind_profile(s.wind));
     if (has_resolved_rotor(s) && !s.rotor.joint.empty()) document.problem("rotor.joint", "has no effect: there are no [bodies]");
     if (has_resolved_rotor(s) && !s.rotor.body.empty()) document.problem("rotor.body", "has no effect: there are no [bodies]");
-    if (!s.beams.empty()) document.problem("beams", "have no effect: there are no [bodies]");
+    const std::string alone = "without [bodies] the scene is one of air alone";
+    for (const auto& [key, given] : {std::pair{"beams", !s.beams.empty()}, std::pair{"joints", !s.joints.empty()},
+                                     std::pair{"moorings", !s.moorings.empty()}, std::pair{"junctions", !s.junctions.empty()},
+                                     std::pair{"sea", s.has_sea()}})
+      if (given) document.problem(key, "has no effect: " + alone);
+    if (s.start.equilibrium) document.problem("start.equilibrium", "has no effect: " + alone);
+    if (has_resolved_rotor(s) || s.has_actuator()) aero::check_blade_keys(document, s.aero, s.rotor, s.rotor_section);
     if (!has_resolved_rotor(s)) check_flows(document, s.wind);
     document.finish();
     return s;

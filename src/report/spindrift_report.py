@@ -95,7 +95,7 @@ def main():
     except ModuleNotFoundError as missing:
         package = PACKAGES.get(missing.name, missing.name)
         fail(4, f"Python at {sys.executable} has no module '{missing.name}': install the package {package} (ci/setup does)")
-    progress = Progress()
+    progress = Progress() if given.verdict else lambda words: None
     if (given.directories[0] / "study.json").exists():
         return write(given.out or given.directories[0] / "study.html", lambda: study_page.build(given.directories[0]))
     runs = [RunData(folder) for folder in given.directories]

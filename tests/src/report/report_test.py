@@ -568,6 +568,32 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual(found.level, level)
                 self.assertEqual("thrust by" in found.text, change > 0.0)
 
+    def test_a_surge_that_swings_slowly_has_not_settled_wherever_its_origin_is(self):
+        t = 0.1 * np.arange(1201)
+        for far in (0.0, 20.0):
+            for swing, level in ((0.1, "good"), (1.5, "warn")):
+                with self.subTest(far=far, swing=swing), tempfile.TemporaryDirectory() as folder:
+                    table = {"time_s": t, "float.x_m": far + swing * np.cos(2 * np.pi * t / 119.0)}
+                    synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 60.0, "to_s": 120.0}})
+                    found = {c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"]
+                    self.assertEqual(found, level if far else "warn")
+
+    def test_joints_that_come_apart_are_told(self):
+        t = 0.1 * np.arange(100)
+        for apart, level in ((1e-14, "good"), (1e-4, "warn"), (1.0, "bad")):
+            with self.subTest(apart), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "float.x_m": 0 * t, "joints.constraint_residual": apart + 0 * t}, log="")
+                self.assertEqual({c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Joints"], level)
+
+    def test_a_body_that_turns_with_a_rotor_answers_with_no_attitude(self):
+        t = 0.1 * np.arange(100)
+        table = {"time_s": t, "hub.x_m": 0 * t, "hub.pitch_deg": 5.0 * np.sin(t), "rotor.thrust_N": 1e6 + 0 * t}
+        bearing = "[joints.bearing]\nbodies = ['earth', 'hub']\n"
+        for rotor, said in (("[rotor]\njoint = 'bearing'\n", ["thrust"]), ("[rotor]\nbody = 'hub'\n", ["pitch", "thrust"])):
+            with self.subTest(rotor), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.hub]\nmass_kg = 1.0\n" + bearing + rotor, log="")
+                self.assertEqual([words for words, _, _ in verdict.answers(RunData(pathlib.Path(folder)))], said)
+
     def test_halves_of_a_random_motion_differ_by_chance(self):
         t = 0.1 * np.arange(6001)
         table = {"time_s": t, "float.x_m": 2.0 * np.sin(2 * np.pi * t / 11.0) + 0.1 * np.sign(t - 350.0)}
