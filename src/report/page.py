@@ -297,22 +297,28 @@ def _caption(group, drawing, runs):
     return " ".join(said).strip()
 
 
-def _run_legend(runs):
-    return {r.name: figures.legend_mark(i, i) for i, r in enumerate(runs)} if len(runs) > 1 else {}
+def _run_legend(runs, group=None):
+    """Of runs that have columns of the group; without one, of all."""
+    shown = {r.name: figures.legend_mark(i, i) for i, r in enumerate(runs) if group is None or set(group.columns()) & set(r.columns)}
+    return shown if len(runs) > 1 else {}
 
 
 def time_figures(runs):
     """{group key: HTML} of all figures over time."""
     names = list(dict.fromkeys(n for run in runs for n in run.columns))
     shown, folded, still = {}, {}, {}
-    joints = {name: joint.get("bodies") or [] for name, joint in _tables(runs[0].scene, "joints").items()}
+    joints = {}
+    for run in runs:
+        for name, joint in _tables(run.scene, "joints").items():
+            pair = joint.get("bodies") or []
+            joints[name] = pair if joints.get(name, pair) == pair else []   # one that holds other bodies in another run has figures of its own
     for group in quantities.groups(names, joints):
         drawing = figures.series(runs, group)
         caption = _caption(group, drawing, runs)
         if drawing.figure is None:
             still.setdefault(group.key, []).append(f"{group.title}. {caption}")
             continue
-        (folded if group.fold else shown).setdefault(group.key, []).append(_figure(group.title, drawing.legend or _run_legend(runs), drawing.figure, caption))
+        (folded if group.fold else shown).setdefault(group.key, []).append(_figure(group.title, drawing.legend or _run_legend(runs, group), drawing.figure, caption))
     out = {}
     for key in GROUPS:
         body = f'<div class="figures">{"".join(shown[key])}</div>' if key in shown else ""

@@ -253,7 +253,7 @@ def _load_cases(study):
 
     def table(heads, rows):
         head = "".join(f"<th{' class=text' if text else ''}>{page.escape(h)}</th>" for h, text in heads)
-        body = "".join("<tr>" + "".join(f"<td{' class=text' if text else ''}>{page.escape(v) if text else page.number(v, 4)}</td>"
+        body = "".join("<tr>" + "".join(f"<td{' class=text' if text else ''}>{page.escape(v) if text else v if isinstance(v, int) else page.number(v, 4)}</td>"
                                         for v, (_, text) in zip(row, heads)) + "</tr>" for row in rows)
         return f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
@@ -265,12 +265,27 @@ def _load_cases(study):
         parts += f"<h3>Ranges that {o['equivalent_cycles']:g} cycles make in {o['years']:g} years</h3>" + table(
             [("column", True), ("m", False), ("range", False), ("most damage", True)],
             [(r["column"], r["exponent"], r["range"], r["worst"]) for r in found["lifetime"]])
-    parts += "<h3>Cases</h3>" + table(
-        [("case", True), ("column", True), ("seeds", False), ("share of life", False), ("mean", False), ("deviation", False), ("mean of minima", False),
-         ("mean of maxima", False), *[(f"1 Hz range, m = {m:g}", False) for m in exponents]],
+    parts += "<h3>Cases: means over their seeds, and equivalent ranges of 1 Hz</h3>" + table(
+        [("case", True), ("column", True), ("seeds", False), ("share of life", False), ("mean", False), ("deviation", False), ("minima", False),
+         ("maxima", False), *[(f"range, m = {m:g}", False) for m in exponents]],
         [(c["rung"], c["column"], c["seeds"], found["shares"][c["column"]].get(c["rung"], 0.0), c["mean"], c["deviation"], c["min"], c["max"], *c["equivalent"])
          for c in found["cases"]])
     return parts + "".join(f"<p>{page.escape(note)}.</p>" for note in found["notes"])
+
+
+LIFE_COVERED = 0.9   # of a life: what the cases leave out does no damage in the ranges
+
+
+def _design_status(found):
+    """Of load cases without a reference: how many loads there are of how many cases, and what of a life they cover."""
+    least = min((math.fsum(parts.values()) for parts in found["shares"].values() if parts), default=1.0)
+    columns, cases = dict.fromkeys(e["column"] for e in found["extremes"]), dict.fromkeys(c["rung"] for c in found["cases"])
+    headline = f"Design loads of {len(columns)} column{'s' if len(columns) > 1 else ''} by {len(cases)} case{'s' if len(cases) > 1 else ''}"
+    if least < LIFE_COVERED:
+        headline += f"; these cover {100.0 * least:.3g} % of the life, so its ranges are too small"
+    notes = "".join(f"<p>{page.escape(note[0].upper() + note[1:])}.</p>" for note in found["notes"])
+    doubtful = least < LIFE_COVERED or any(note.startswith("without") for note in found["notes"])
+    return f'<div class="status{" warn" if doubtful else ""}"><p><strong class="headline">{page.escape(headline)}.</strong></p>{notes}</div>'
 
 
 def _title(study):
@@ -290,6 +305,8 @@ def build(folder):
     scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
     status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
               f"<p>Next best spend: {page.escape(study['next'])}.</p></div>")
+    if study.get("load_cases") and not reference:
+        status = _design_status(study["load_cases"])
     limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])

@@ -270,6 +270,18 @@ source = "Bak et al. 2013"
         synthetic_run.write(self.folder / "deep/a", rows=0)
         self.page("a", "deep/a")  # equal names, and one without rows
 
+    def test_runs_of_other_bodies_are_drawn_under_their_own_names(self):
+        t = 0.1 * np.arange(200)
+        for name, body in (("a", "platform"), ("b", "spar")):
+            table = {"time_s": t, f"{body}.x_m": np.sin(t), f"{body}.sea.fy_N": np.sin(t), "bearing.fy_N": 2.0 * np.sin(t)}
+            synthetic_run.write(self.folder / name, table=table, log="", scene=f"[bodies.{body}]\nmass_kg = 1.0\n[joints.bearing]\nbodies = ['{body}', 'rotor']\n")
+        runs = [RunData(self.folder / name) for name in ("a", "b")]
+        figures_of = page.time_figures(runs)
+        self.assertNotIn("bearing, on rotor", figures_of["forces"])
+        place = figures_of["motion"].split("platform: position", 1)[1].split("spar: position")[0]
+        self.assertIn(">a<", place)
+        self.assertNotIn(">b<", place)
+
     def test_a_section_that_one_run_lacks_is_one_difference(self):
         one = synthetic_run.SCENE + "[control]\nmodel = 'dtu'\nstart = true\n[[output.expected]]\ncolumn = 'a'\n"
         synthetic_run.write(self.folder / "a", scene=one)

@@ -8,6 +8,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src" / "report"))
 import study_load_cases  # noqa: E402
+import study_page  # noqa: E402
 
 TIME = np.linspace(0.0, 600.0, 12001)
 
@@ -47,6 +48,14 @@ class Table(unittest.TestCase):
             expected = (sum(p * cycles * (2.0 * a) ** m for p, a in zip(shares, (1.0, 2.0, 3.0))) / 1e7) ** (1.0 / m)
             self.assertAlmostEqual(row["range"] / expected, 1.0, delta=5e-3)  # half cycles at the ends
             self.assertEqual(row["worst"], "normal-wind_14")
+
+    def test_the_page_says_first_what_of_the_life_is_covered(self):
+        few = study_page._design_status(cases(plan(), lambda name: sine(1.0)).result())
+        self.assertIn("Design loads of 1 column by 4 cases; these cover", few)
+        self.assertIn('class="status warn"', few)
+        all_winds = study_page._design_status(cases(plan(winds=range(2, 31, 2), seeds=1), lambda name: sine(1.0)).result())
+        self.assertIn("Design loads of 1 column by 16 cases.", all_winds)
+        self.assertIn('class="status"', all_winds)
 
     def test_a_design_extreme_is_the_mean_of_the_seeds_times_its_factor(self):
         def load(name):
