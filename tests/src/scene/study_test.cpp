@@ -96,7 +96,9 @@ TEST_CASE("what is wrong with a study is told like what is wrong with a scene", 
   CHECK(complaint(dir, "[study2]\n") == file + ":3: study2: unknown section; did you mean [study]?");
   std::string many;
   for (char c = 'a'; c < 'f'; ++c)
-    many += std::string("[axes.") + c + "]\nkey = \"x.y\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n";
+    many += std::string("[axes.") + c + "]\nkey = \"x." + c + "\"\nvalues = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n";
+  CHECK(complaint(dir, "[axes.a]\nkey = \"x.y\"\nvalues = [1, 2]\n[axes.b]\nkey = \"x\"\nvalues = [1, 2]\n") ==
+        file + ":7: axes.b.key = \"x\": sets x.y, as axes.a does: a key is on one axis alone");
   CHECK(complaint(dir, many) == file + ":3: axes: give 100000 runs; at most 10000");
 }
 
