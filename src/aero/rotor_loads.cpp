@@ -202,21 +202,29 @@ TurbineControl::Measured RotorLoads::measured(double t, const RotorState& now) c
 void RotorLoads::begin(double t, std::span<const Motion> bodies, std::span<double> memory) {
   recall({});
   const RotorState now = state(t, bodies);
-  if (control_) control_->begin(t, measured(t, now), memory.first(drive_size()));
+  if (control_) {
+    control_->begin(t, measured(t, now), memory.first(drive_size()));
+    require_slow_tips(t, memory);
+  }
   if (blades()) blades()->begin(blades_at(wind_, t, now, memory), now.speed, memory.subspan(drive_size()));
   recall(memory);
+}
+
+void RotorLoads::require_slow_tips(double t, std::span<const double> memory) const {
+  constexpr double fastest = 1020.0;  // m/s: three times that of sound, beyond which air has no such loads
+  const double speed = TurbineControl::state(memory).speed, tips = std::abs(speed) * tip_radius_;
+  if (tips <= fastest) return;
+  throw NumericalFailure(
+      fmt::format("t = {:g} s: control: the rotor turns at {:.4g} rpm, its tips at {:.4g} m/s; the limit is {:g} m/s", t,
+                  speed * 30.0 / pi, tips, fastest),
+      "control", 0, t, fastest);
 }
 
 void RotorLoads::remember(double t, double h, std::span<const Motion> bodies, std::span<double> memory) const {
   const RotorState now = state(t, bodies);
   if (control_) {
     control_->advance(t, h, measured(t, now), memory.first(drive_size()));
-    constexpr double fastest = 1020.0;  // m/s: three times that of sound, beyond which air has no such loads
-    if (const double speed = TurbineControl::state(memory).speed, tips = std::abs(speed) * tip_radius_; tips > fastest)
-      throw NumericalFailure(
-          fmt::format("t = {:g} s: control: the rotor turns at {:.4g} rpm, its tips at {:.4g} m/s; the limit is {:g} m/s", t,
-                      speed * 30.0 / pi, tips, fastest),
-          "control", 0, t, fastest);
+    require_slow_tips(t, memory);
   }
   if (blades()) blades()->remember(blades_at(wind_, t, now, memory), h, memory.subspan(drive_size()));
 }

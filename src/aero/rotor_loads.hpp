@@ -127,6 +127,8 @@ class RotorLoads {
   /// Of the memory; the rest is the blades'.
   std::size_t drive_size() const { return control_ ? control_->memory_size() : 0; }
   TurbineControl::Measured measured(double t, const RotorState& now) const;
+  /// Of a drive train, by the memory; throws NumericalFailure.
+  void require_slow_tips(double t, std::span<const double> memory) const;
   /// Under the scene's own wind. What was asked for last is not computed again: a row of history asks for what a step did.
   const BladeLoads::Load& blade_load(double t, const RotorState& now) const;
   /// Without what the drive train adds. `air`: of the blades; null for models without sections.

@@ -184,7 +184,7 @@ void print_doubts(scene::Doubts doubts, const scene::Doubts& more) {
 coupling::Start start_or_doubts(FloatingSystem& floating, const scene::Doubts& angles, bool prints) {
   try {
     return make_start(floating);
-  } catch (const scene::SceneError&) {
+  } catch (const std::exception&) {  // refused, or not to be found
     if (prints) print_doubts(angles, coupling::doubts_as_described(floating));
     throw;
   }

@@ -253,7 +253,7 @@ ReadyScene made_ready(coupling::Scenario scenario, scene::Document& document) {
     found = stability(*ready.floating, ready.start.state);
     append(ready.doubts, coupling::doubts(*ready.floating, ready.start, found));
     append(ready.doubts, require_limits(*ready.floating, ready.start.state, found));
-  } catch (const scene::SceneError&) {  // what looks like the slip behind it
+  } catch (const std::exception&) {  // what looks like the slip behind it
     if (found.linearisation.matrix.size() == 0) append(ready.doubts, coupling::doubts_as_described(*ready.floating));
     warn(ready.doubts);
     throw;

@@ -492,9 +492,12 @@ class SystemRun(System):
             self.assertIn(word, log)
 
     def test_a_wall_limit_ends_the_run_with_5_and_it_goes_on_from_there(self):
-        self.spindrift(ENGINEERING, "limited", settings=["time.end_s=600.0", "runtime.wall_limit_s=1.0"], code=5)
-        summary = json.loads((self.path / "limited/summary.json").read_text())
-        self.assertIn("wall", summary["exit_reason"])
+        for limit in (1.0, 4.0, 16.0):   # a busy computer may need the first of them to start
+            self.spindrift(ENGINEERING, "limited", "--overwrite", settings=["time.end_s=600.0", f"runtime.wall_limit_s={limit}"], code=5)
+            summary = json.loads((self.path / "limited/summary.json").read_text())
+            self.assertIn("wall", summary["exit_reason"])
+            if (self.path / "limited/history.csv").exists() and len(self.rows("limited")) > 1:
+                break
         done = len(self.rows("limited"))
         self.assertGreater(done, 1)
         self.spindrift(ENGINEERING, "limited", "--restart", "--until", 0.1 * (done + 1), settings=["time.end_s=600.0"])
