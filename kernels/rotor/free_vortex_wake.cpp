@@ -206,14 +206,8 @@ void FreeVortexWake::add_self_induction(const State& s, double sense, std::span<
         circulations[row] = (side == tip ? sense : -sense) * pair,
         cores[row] = core(mean_chord_, s.age[near_rows_ + row + 1], pair);
       }
-      for (std::size_t line = 1; line < far_rows_; ++line) {
-        const Bend bend = Bend::through(ends[line - 1], ends[line], ends[line + 1]);
-        const std::size_t there_are = std::min(line, far_rows_ - line);
-        const std::size_t half = std::min(there_are, self_inducing(bend, (ends[line + 1] - ends[line]).norm(), cores[line]));
-        far[far_at(b, line, side)] += self_induction({std::span(ends).subspan(line - half, 2 * half + 1),
-                                                      std::span(circulations).subspan(line - half, 2 * half),
-                                                      std::span(cores).subspan(line - half, 2 * half)});
-      }
+      for (std::size_t line = 1; line < far_rows_; ++line)
+        far[far_at(b, line, side)] += self_induction({ends, circulations, cores}, line);
     }
 }
 

@@ -111,46 +111,42 @@ struct Bend {
   }
 };
 
-/// Segments of a filament on either side of an end, in the direction of positive circulation: `ends` has one more than the
-/// others, and the end is in their middle.
-struct FilamentPiece {
+/// A chain of segments in the direction of positive circulation: `ends` has one more than the others.
+struct Filament {
   std::span<const Eigen::Vector3d> ends;      ///< [m]
   std::span<const double> circulation, core;  ///< of each segment [m2/s], [m]
 };
 
-/// How many segments there should be on either side, of this length and core [m]: those that the core blots out.
-inline std::size_t self_inducing(const Bend& bend, double length, double core) {
+/// What a curved filament induces on itself at an inner end [m/s], beyond what its straight segments have there: that of an arc
+/// in place of those segments on either side that end there, or are so near that their core blots them out. The core ends the
+/// logarithm so that a ring with the core of Vatistas (n = 2) has the speed of Saffman (1992), chapter 10, Gamma/(4 pi R) (log(8
+/// R/r_c) - 1/2). Bhagwat & Leishman (2014), J. Am. Helicopter Soc. 59.
+inline Eigen::Vector3d self_induction(const Filament& f, std::size_t at) {
   constexpr double widest = 1.0;  // angle of an arc; beyond, a wake is no circle
-  if (bend.radius == 0.0) return 1;
-  // A segment at the angle phi is R phi^2 / 2 aside: from two cores on it has 97 % of its velocity.
-  const double angle = std::min(widest, std::sqrt(4.0 * core / bend.radius));
-  return std::max<std::size_t>(1, std::size_t(std::ceil(angle * bend.radius / length)));
-}
-
-/// What a curved filament induces on itself at the middle end [m/s], beyond what its straight segments have there: that of the
-/// arcs through first, middle and last end in place of the segments between. The core ends the logarithm so that a ring with the
-/// core of Vatistas (n = 2) has the speed of Saffman (1992), chapter 10, Gamma/(4 pi R) (log(8 R/r_c) - 1/2). Bhagwat &
-/// Leishman (2014), J. Am. Helicopter Soc. 59.
-inline Eigen::Vector3d self_induction(const FilamentPiece& piece) {
-  const std::size_t middle = piece.circulation.size() / 2;
-  const Eigen::Vector3d& here = piece.ends[middle];
-  const Bend bend = Bend::through(piece.ends.front(), here, piece.ends.back());
+  const Eigen::Vector3d& here = f.ends[at];
+  Bend bend = Bend::through(f.ends[at - 1], here, f.ends[at + 1]);
   if (bend.radius == 0.0) return Eigen::Vector3d::Zero();
-  const auto arc = [&](const Eigen::Vector3d& end, double core) {  // log of tan(angle / 4) between core and end
-    const double cut = core / (8.0 * bend.radius) * std::exp(0.5);
-    const double half = std::min(1.0, 0.5 * (end - here).norm() / bend.radius);
-    return std::max(0.0, std::log(half / (1.0 + std::sqrt(1.0 - half * half)) / cut));
-  };
-  const double sum = piece.circulation[middle - 1] * arc(piece.ends.front(), piece.core[middle - 1]) +
-                     piece.circulation[middle] * arc(piece.ends.back(), piece.core[middle]);
+  // A segment at the angle phi is R phi^2 / 2 aside: from two cores on it has 97 % of its velocity.
+  const double angle = std::min(widest, std::sqrt(4.0 * f.core[at] / bend.radius));
+  const double wanted = std::ceil(angle * bend.radius / (f.ends[at + 1] - here).norm());
+  const std::size_t half = std::clamp<std::size_t>(std::size_t(wanted), 1, std::min(at, f.circulation.size() - at));
+  const std::size_t first = at - half, last = at + half;
   Eigen::Vector3d straight = Eigen::Vector3d::Zero();
-  if (middle > 1) {  // those that end here have none
+  if (half > 1) {  // those that end here have none
+    bend = Bend::through(f.ends[first], here, f.ends[last]);
+    if (bend.radius == 0.0) return Eigen::Vector3d::Zero();
     VortexFilaments segments;
-    segments.begin(piece.ends[0]);
-    for (std::size_t i = 0; i < piece.circulation.size(); ++i)
-      segments.extend(piece.ends[i + 1], piece.circulation[i], piece.core[i]);
+    segments.begin(f.ends[first]);
+    for (std::size_t i = first; i < last; ++i) segments.extend(f.ends[i + 1], f.circulation[i], f.core[i]);
     segments.add_velocities(std::span(&here, 1), std::span(&straight, 1));
   }
+  const auto arc = [&](const Eigen::Vector3d& end, double core) {  // log of tan(angle / 4) between core and end
+    const double cut = core / (8.0 * bend.radius) * std::exp(0.5);
+    const double sine = std::min(1.0, 0.5 * (end - here).norm() / bend.radius);
+    return std::max(0.0, std::log(sine / (1.0 + std::sqrt(1.0 - sine * sine)) / cut));
+  };
+  const double sum =
+      f.circulation[at - 1] * arc(f.ends[first], f.core[at - 1]) + f.circulation[at] * arc(f.ends[last], f.core[at]);
   return sum / (8.0 * pi * bend.radius) * bend.normal - straight;
 }
 
