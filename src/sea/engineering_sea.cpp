@@ -112,12 +112,8 @@ void add_morison(const Strip& strip, const WettedStrip& wet, double density, con
   const Coefficients& c = strip.coefficients;
   Eigen::Vector3d first_acceleration, first_arm, change = Eigen::Vector3d::Zero();  // of the water, a metre along the axis
   double second_moment = 0.0;                                                       // of the sections, summed along the axis
-  // Sections that are partly wet, the last two of the stations: where their water is beside the axis, and what moves it.
-  Eigen::Vector3d aside = wet.wetted.first_moment, pushed = Eigen::Vector3d::Zero();
-  double partly_wet = 0.0;
   const Eigen::Matrix3d along = wet.axis * wet.axis.transpose(), across = Eigen::Matrix3d::Identity() - along;
-  for (std::size_t n = 0; n < wet.count; ++n) {
-    const Station& s = wet.stations[n];
+  for (const Station& s : std::span(wet.stations).first(wet.count)) {
     if (s.volume <= 0.0) continue;
     const waves::Kinematics k = water.at(s.arm);
     if (second_moment == 0.0) first_acceleration = k.acceleration, first_arm = s.arm;
@@ -127,18 +123,13 @@ void add_morison(const Strip& strip, const WettedStrip& wet, double density, con
     add_at(loads.drag, waves::drag_across(density, c.drag, projected, k.velocity - body.velocity_at(s.arm), wet.axis), s.arm);
     const Eigen::Vector3d wave =
         scattered.empty() ? k.acceleration : along * k.acceleration + across * water.scattered(s.arm, scattered);
-    aside -= s.volume * s.arm;
-    if (n + 2 >= wet.count) pushed += s.volume * wave, partly_wet += s.volume;
-    if (scattered.empty()) {
-      const Eigen::Vector3d relative = k.acceleration - body.centripetal_at(s.arm);
-      add_at(loads.inertia, density * s.volume * wave + added * waves::across(relative, wet.axis), s.arm);
-    } else {
-      add_at(loads.inertia, density * s.volume * wave - added * waves::across(body.centripetal_at(s.arm), wet.axis), s.arm);
-    }
+    add_at(loads.inertia, density * s.volume * wave, s.water);
+    // Waves that scatter have the inertia across in them.
+    const Eigen::Vector3d relative = (scattered.empty() ? k.acceleration : Eigen::Vector3d::Zero()) - body.centripetal_at(s.arm);
+    add_at(loads.inertia, added * waves::across(relative, wet.axis), s.arm);
     if (mass) waves::add_point_inertia(added * across, s.arm, *mass);
   }
   loads.inertia.moment -= density * second_moment * wet.axis.cross(change);
-  if (partly_wet > 0.0) loads.inertia.moment += density * aside.cross(pushed / partly_wet);
   for (std::size_t i = 0; i < strip.ends.size(); ++i) {
     const WettedEnd& e = wet.ends[i];
     const ExposedEnd& end = strip.ends[i];

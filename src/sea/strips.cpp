@@ -89,11 +89,20 @@ WettedStrip wetted_strip(const Strip& strip, const Eigen::Vector3d& start, const
       const double fraction = piece.from + gauss * (piece.to - piece.from), radius = strip.shape.radius(fraction);
       const double height = start_height + fraction * (end_height - start_height);
       const double volume = (piece.to - piece.from) * radius * radius * wet_share(height, lean, radius);
-      out.stations[out.count++] = {start + fraction * (end - start), volume, radius};
+      const Eigen::Vector3d arm = start + fraction * (end - start);
+      out.stations[out.count++] = {arm, arm, volume, radius};
       sum += volume;
     }
   }
-  for (std::size_t i = 0; i < out.count; ++i) out.stations[i].volume *= sum > 0.0 ? out.wetted.volume / sum : 0.0;
+  Eigen::Vector3d beside = out.wetted.first_moment;
+  for (Station& s : std::span(out.stations).first(out.count)) {
+    s.volume *= sum > 0.0 ? out.wetted.volume / sum : 0.0;
+    beside -= s.volume * s.arm;
+  }
+  if (part.empty()) return out;
+  const std::span<Station> partly_wet = std::span(out.stations).subspan(out.count - 2, 2);
+  if (const double volume = partly_wet[0].volume + partly_wet[1].volume; volume > 0.0)
+    for (Station& s : partly_wet) s.water += beside / volume;
   return out;
 }
 

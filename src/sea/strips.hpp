@@ -48,9 +48,10 @@ struct Strip {
 void append_strips(const Cylinder& cylinder, const Coefficients& coefficients, const std::array<ExposedEnd, 2>& ends,
                    double longest, std::vector<Strip>& strips);
 
-/// A piece of a strip that counts as one point: its arm from the centre of mass [m], its wetted volume [m3], its radius [m].
+/// A piece of a strip that counts as one point: its arm from the centre of mass, on the axis, and that of its water, which is
+/// beside the axis where sections are partly wet [m]; its wetted volume [m3], its radius [m].
 struct Station {
-  Eigen::Vector3d arm;
+  Eigen::Vector3d arm, water;
   double volume, radius;
 };
 struct WettedEnd {
@@ -60,7 +61,7 @@ struct WettedEnd {
 struct WettedStrip {
   Eigen::Vector3d axis;
   waves::Wetted wetted;             ///< first moment about the centre of mass
-  std::array<Station, 4> stations;  ///< the first `count`; their volumes add to the wetted volume
+  std::array<Station, 4> stations;  ///< the first `count`; their volumes add to the wetted volume, with its first moment
   std::size_t count = 0;
   std::array<WettedEnd, 2> ends;
 };
