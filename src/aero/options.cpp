@@ -300,14 +300,16 @@ void check_rotor(scene::Document& doc, const AeroOptions& aero, const RotorOptio
                   fmt::format("has no effect: no section of {} has polars at several Reynolds numbers", rotor.turbine));
   });
   check_blade_keys(doc, aero, rotor, section);
-  if (aero.model == "bem" && !rotor.turbine.empty())
-    try_file(own("blade_masses"), rotor.blade_masses,
-             [&] { read_blade_masses(read_turbine(rotor.turbine), rotor.blade_masses); });
-  if (aero.model == "bem" && !rotor.blade_structure.empty() && !rotor.blade_masses.empty())
-    doc.problem(own("blade_masses"), "is given beside rotor.blade_structure, which has masses too: one of the two");
-  else if (aero.model == "bem" && !rotor.turbine.empty())
-    try_file(own("blade_structure"), rotor.blade_structure,
-             [&] { read_blade_structure(read_turbine(rotor.turbine), rotor.blade_structure); });
+  if (aero.model == "bem") {
+    const auto try_blades = [&](const char* key, const std::string& path, auto read) {
+      if (!rotor.turbine.empty()) try_file(own(key), path, [&] { read(read_turbine(rotor.turbine), path); });
+    };
+    try_blades("blade_masses", rotor.blade_masses, read_blade_masses);
+    if (!rotor.blade_structure.empty() && !rotor.blade_masses.empty())
+      doc.problem(own("blade_masses"), "is given beside rotor.blade_structure, which has masses too: one of the two");
+    else
+      try_blades("blade_structure", rotor.blade_structure, read_blade_structure);
+  }
   try_file(own("operation"), rotor.operation, [&] { read_operation(rotor.operation); });
   try_file("aero.table", aero.table, [&] { Prescribed model(aero); });
   try_file("aero.curve", aero.curve, [&] { ThrustCurve model(aero, rotor, 1.0); });

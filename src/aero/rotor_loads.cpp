@@ -42,7 +42,6 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind 
                        double step_s, const Eigen::Vector3d& gravity)
     : bearing_(placement, rotor.azimuth, start),
       start_{rotor.azimuth, rotor.speed, rotor.blade_pitch},
-      tip_radius_(0.5 * rotor_diameter(rotor)),
       wind_(std::move(wind)),
       gravity_(gravity) {
   if (aero.thrust_frame == "earth") thrust_direction_ = placement.axis.normalized();
@@ -51,6 +50,7 @@ RotorLoads::RotorLoads(const AeroOptions& aero, const RotorOptions& rotor, Wind 
   if (aero.model == "bem") model_ = BladeLoads(aero, rotor, air_density);
   if (aero.tower) tower_.emplace(*aero.tower, tower_frame(state(0.0, start)), air_density);
   if (control.model == ControlModel::none) return;
+  tip_radius_ = 0.5 * rotor_diameter(rotor);
   const int count = rotor.turbine.empty() ? 3 : read_turbine(rotor.turbine).blades;
   if (control.model == ControlModel::library) {
     control_.emplace(control, count, TurbineControl::Start{rotor.azimuth, rotor.speed, rotor.blade_pitch}, step_s);

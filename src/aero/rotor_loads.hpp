@@ -140,7 +140,7 @@ class RotorLoads {
   RotorBearing bearing_;
   std::optional<Eigen::Vector3d> thrust_direction_;  ///< earth frame, where the thrust does not follow the axis
   TurbineControl::Start start_;
-  double tip_radius_;  ///< [m]; 0 where it is not known
+  double tip_radius_ = 0.0;  ///< of a drive train's rotor [m]; 0 where it is not known
   Wind wind_;
   std::optional<PeakShaving> shaving_;
   std::optional<TurbineControl> control_;

@@ -735,9 +735,7 @@ int check(const CheckArguments& arguments, const runtime::World& world) {
   HeldOutput held;
   int code = done;
   try {
-    code = by_lines(document, [&] {
-      return at_rest(document, [&] { return check_as_read(arguments, world, document, std::move(scenario), begin_s); });
-    });
+    code = by_lines_at_rest(document, [&] { return check_as_read(arguments, world, document, std::move(scenario), begin_s); });
   } catch (...) {
     if (!held.empty()) held.release(arguments.scene + ": refused, for the reason at the end\n");
     throw;

@@ -278,9 +278,9 @@ std::vector<io::ModeLine> lines_of(const std::vector<bodies::Mode>& modes) {
 ReadyScene read_scene(const std::string& path, const std::vector<std::string>& overrides, const scene::Source& overrider) {
   scene::Document document = load_scene(path, overrides, overrider);
   coupling::Scenario scenario = coupling::read_scenario(document);
-  return by_lines(document, [&] {
+  return by_lines_at_rest(document, [&] {
     coupling::require_memory(scenario, coupling::machine_memory());
-    return at_rest(document, [&] { return made_ready(std::move(scenario), document); });
+    return made_ready(std::move(scenario), document);
   });
 }
 
@@ -313,7 +313,7 @@ SceneRun run_scene(const RunArguments& arguments, const runtime::World& started,
   // Every check has passed before the run directory is made.
   std::optional<ReadyScene> system;
   if (!scenario->has_flow())
-    system = by_lines(*document, [&] { return at_rest(*document, [&] { return made_ready(*scenario, *document); }); });
+    system = by_lines_at_rest(*document, [&] { return made_ready(*scenario, *document); });
   else
     require_expected_columns(*document, scenario->output, columns_of_air_alone());
   require_first_window(arguments.windows, system ? system->floating->timeline().held_windows() : 0);

@@ -23,16 +23,18 @@ auto by_lines(const scene::Document& document, const Make& make) {
   } catch (const scene::SceneError& late) { throw document.located(late); }
 }
 
-/// What `make` makes of a scene. At t = 0, before anything moves, a state that the numerics cannot find, lines that come to no
+/// As by_lines. At t = 0, before anything moves, a state that the numerics cannot find, lines that come to no
 /// rest, is refused by the section it is of.
 template <class Make>
-auto at_rest(const scene::Document& document, const Make& make) {
-  try {
-    return make();
-  } catch (const NumericalFailure& failure) {
-    if (failure.time_s != 0.0) throw;
-    throw scene::SceneError({{document.source(), 0, failure.place, "", failure.what()}});
-  }
+auto by_lines_at_rest(const scene::Document& document, const Make& make) {
+  return by_lines(document, [&] {
+    try {
+      return make();
+    } catch (const NumericalFailure& failure) {
+      if (failure.time_s != 0.0) throw;
+      throw scene::SceneError({{document.source(), 0, failure.place, "", failure.what()}});
+    }
+  });
 }
 
 /// Throws where `path` is a scene and no study.

@@ -89,11 +89,10 @@ void doubt_point_of_inertia(scene::Doubts& doubts, const std::string& at, const 
 void doubt_reach_of_inertia(scene::Doubts& doubts, const std::string& at, const BodyOptions& body,
                             const BodySurroundings& around) {
   constexpr double most_wide = 1.3, most_spar = 1.03, slender = 4.0;
-  Eigen::AlignedBox3d shapes;
-  for (const Eigen::AlignedBox3d& piece : pieces(body)) shapes.extend(piece);
+  const Eigen::AlignedBox3d shapes = bounds(body);
   const bool spar = shapes.contains(body.centre_m) && shapes.sizes().z() > slender * shapes.sizes().head<2>().maxCoeff();
   if (!spar && !around.top) return;
-  Eigen::AlignedBox3d reach = spar ? shapes : bounds(body);
+  Eigen::AlignedBox3d reach = shapes;
   if (around.top) reach.extend(Eigen::Vector3d(reach.center().x(), reach.center().y(), *around.top)).extend(body.centre_m);
   doubt_point_of_inertia(doubts, at, body, reach, spar ? most_spar : most_wide, about_the_keel(body, shapes), around.planar);
 }

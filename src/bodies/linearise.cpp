@@ -28,7 +28,6 @@ double Mode::period_s() const {
 double Mode::damping_ratio() const { return eigenvalue == 0.0 ? 0.0 : -eigenvalue.real() / std::abs(eigenvalue); }
 
 std::string direction_name(const System& system, const BodiesState& state, const Eigen::VectorXd& chart_direction) {
-  constexpr std::array<const char*, 6> names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
   const Eigen::VectorXd velocity = system.motion_of_freedoms() * chart_direction;
   double most = -1.0;
   std::string name;
@@ -42,7 +41,7 @@ std::string direction_name(const System& system, const BodiesState& state, const
       const double energy = k < 3 ? body.mass * linear[k] * linear[k] : inertia(k - 3, k - 3) * spin[k - 3] * spin[k - 3];
       if (energy > most * (1.0 + 1e-9)) {
         most = energy;
-        name = std::string(names[std::size_t(k)]) + " of " + body.name;
+        name = std::string(freedom_names[std::size_t(k)]) + " of " + body.name;
       }
     }
   }

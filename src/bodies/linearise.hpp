@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <span>
 #include <string>
@@ -14,6 +15,9 @@
 #include "src/bodies/system.hpp"
 
 namespace spindrift::bodies {
+
+/// Of a body: translations and turns about x, y, z.
+inline constexpr std::array freedom_names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
 /// One eigenvalue; of a conjugate pair the one with positive imaginary part.
 struct Mode {

@@ -70,7 +70,6 @@ std::string deformation_name(const Beam& beam, const BodiesState& state, const M
 
 std::string name_of(const System& system, const BodiesState& state, const Eigen::VectorXd& chart_direction,
                     std::span<const Beam> beams) {
-  constexpr std::array<const char*, 6> names{"surge", "sway", "heave", "roll", "pitch", "yaw"};
   std::vector<Moving> all = moving(system, state, system.motion_of_freedoms() * chart_direction);
   for (const Beam* beam : from_the_top(beams)) carry(*beam, state, all);
   double most = -1.0;
@@ -84,7 +83,7 @@ std::string name_of(const System& system, const BodiesState& state, const Eigen:
   }
   const auto bent = std::ranges::find_if(beams, [mover](const Beam& beam) { return std::size_t(beam.j) == mover; });
   if (bent != beams.end()) return deformation_name(*bent, state, all[mover]);
-  return names[axis] + (" of " + system.bodies()[mover].name);
+  return freedom_names[axis] + (" of " + system.bodies()[mover].name);
 }
 
 }  // namespace

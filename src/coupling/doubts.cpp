@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -540,7 +539,7 @@ void doubt_times(scene::Doubts& doubts, const FloatingSystem& floating) {
   if (s.wind.event && s.has_rotor() && s.wind.event->start_s > s.time.end_s)
     doubts.push_back({"wind.event.start_s", fmt::format("{:.4g} s in a run of {:.4g} s", s.wind.event->start_s, s.time.end_s),
                       "before the end of the run", "the gust does not come; look at its unit: s"});
-  for (const bodies::Joint& joint : bodies::make_joints(s.joints, s.bodies))
+  for (const bodies::Joint& joint : floating.multibody().joints())
     for (const auto& [kind, motion] : {std::pair{"rotation", &joint.rotation}, std::pair{"translation", &joint.translation}})
       if (*motion) doubt_driver(doubts, fmt::format("joints.{}.{}.table", joint.name, kind), **motion, s.time.end_s);
   doubt_time_of_table(doubts, "wind.table", s.has_rotor() ? s.wind.table : "", s.time.end_s);
@@ -657,14 +656,14 @@ void doubt_window(scene::Doubts& doubts, const FloatingSystem& floating, const S
 /// The axes of a boundary-element code begin at its body.
 void doubt_memory(scene::Doubts& doubts, const FloatingSystem& floating) {
   constexpr double most = 0.05;
-  constexpr std::array modes{"surge", "sway", "heave", "roll", "pitch", "yaw"};
   if (!floating.sea() || !floating.scenario().sea.potential) return;
   const sea::PotentialBody::Cut cut = floating.sea()->memory_cut();
   if (cut.share > most)
-    doubts.push_back({"sea.potential.memory_s",
-                      fmt::format("{:.4g} s, where the water's memory of {} is at {:.2g} of its largest",
-                                  floating.scenario().sea.potential->memory_s, modes[std::size_t(cut.mode)], cut.share),
-                      fmt::format("so long that {:g} is left", most), "the water forgets waves that are still there"});
+    doubts.push_back(
+        {"sea.potential.memory_s",
+         fmt::format("{:.4g} s, where the water's memory of {} is at {:.2g} of its largest",
+                     floating.scenario().sea.potential->memory_s, bodies::freedom_names[std::size_t(cut.mode)], cut.share),
+         fmt::format("so long that {:g} is left", most), "the water forgets waves that are still there"});
 }
 
 void doubt_origin(scene::Doubts& doubts, const Scenario& s) {

@@ -30,6 +30,7 @@ class FloatingSystem {
   const Scenario& scenario() const { return scenario_; }
   const Timeline& timeline() const { return timeline_; }
   bodies::System& multibody() { return *multibody_; }
+  const bodies::System& multibody() const { return *multibody_; }
 
   std::span<const bodies::Beam> beams() const { return beams_; }
   const std::optional<moorings::Moorings>& moorings() const { return moorings_; }

@@ -245,6 +245,10 @@ def _budget(study):
     return parts
 
 
+def _notes(found):
+    return "".join(f"<p>{page.escape(note[0].upper() + note[1:])}.</p>" for note in found["notes"])
+
+
 def _load_cases(study):
     """Design extremes and ranges of a life, then every case."""
     found = study.get("load_cases")
@@ -270,7 +274,7 @@ def _load_cases(study):
          ("maxima", False), *[(f"range, m = {m:g}", False) for m in exponents]],
         [(c["rung"], c["column"], c["seeds"], found["shares"][c["column"]].get(c["rung"], 0.0), c["mean"], c["deviation"], c["min"], c["max"], *c["equivalent"])
          for c in found["cases"]])
-    return parts + "".join(f"<p>{page.escape(note)}.</p>" for note in found["notes"])
+    return parts + (_notes(found) if study["reference"] else "")   # else they stand above
 
 
 LIFE_COVERED = 0.9   # of a life: what the cases leave out does no damage in the ranges
@@ -283,9 +287,8 @@ def _design_status(found):
     headline = f"Design loads of {len(columns)} column{'s' if len(columns) > 1 else ''} by {len(cases)} case{'s' if len(cases) > 1 else ''}"
     if least < LIFE_COVERED:
         headline += f"; these cover {100.0 * least:.3g} % of the life, so its ranges are too small"
-    notes = "".join(f"<p>{page.escape(note[0].upper() + note[1:])}.</p>" for note in found["notes"])
     doubtful = least < LIFE_COVERED or any(note.startswith("without") for note in found["notes"])
-    return f'<div class="status{" warn" if doubtful else ""}"><p><strong class="headline">{page.escape(headline)}.</strong></p>{notes}</div>'
+    return f'<div class="status{" warn" if doubtful else ""}"><p><strong class="headline">{page.escape(headline)}.</strong></p>{_notes(found)}</div>'
 
 
 def _title(study):
@@ -303,10 +306,11 @@ def build(folder):
     against = (f"the configuration '{reference['variant']}'" if reference.get("variant") else pathlib.Path(reference["history"]).name
                if reference.get("history") else f"Richardson's limit along {reference['limit']}" if reference.get("limit") else "")
     scene = f"<p>The scene to run: <code>{page.escape(folder / study['scene'])}</code></p>" if study["scene"] else ""
-    status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
-              f"<p>Next best spend: {page.escape(study['next'])}.</p></div>")
-    if study.get("load_cases") and not reference:
-        status = _design_status(study["load_cases"])
+    if (cases := study.get("load_cases")) and not reference:
+        status = _design_status(cases)
+    else:
+        status = (f'<div class="status{"" if found else " warn"}"><p><strong class="headline">{page.escape(sentence)}.</strong></p>{scene}'
+                  f"<p>Next best spend: {page.escape(study['next'])}.</p></div>")
     limits = "".join(f"<li>{page.escape(l['metric'])} of {page.escape(l['of'])}: " + (page.escape(l["why"]) if l["why"] else
                      f"order {page.number(l['order'], 3) if l['order'] else 'not needed'}") + "</li>" for l in study["limits"])
     left = "".join(f"<li>{page.escape(text)}</li>" for text in study["not_tested"])

@@ -345,12 +345,11 @@ const Section<FieldsOptions>& fields_section() {
           .number("surface_spacing_m", &FieldsOptions::surface_spacing_m, "m",
                   "Mesh of the height field of the surface; 0: none.", not_negative())
           .check([](const FieldsOptions& o, const scene::Report& report) {
-            for (std::size_t n = 0; n < o.particles.size(); ++n)
-              if (std::ranges::count(o.particles, o.particles[n]) > 1)
-                return report("particles", "has \"" + o.particles[n] + "\" twice");
-            for (const std::string& name : o.particles)
+            for (const std::string& name : o.particles) {
+              if (std::ranges::count(o.particles, name) > 1) return report("particles", "has \"" + name + "\" twice");
               if (name != "velocity" && name != "pressure" && name != "density" && name != "owner")
                 return report("particles", "has \"" + name + "\"; known: velocity, pressure, density, owner");
+            }
           });
   return section;
 }
