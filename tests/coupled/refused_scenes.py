@@ -238,8 +238,8 @@ rotor.blade_masses="/etc/hostname"
 rotor.blade_structure="/etc/hostname"
 sea.model="morison" : sea
 start.equilibrium=true
-moorings.line_1.body="spar" : moorings
-joints.bearing.bodies=["earth", "nobody"] : joints
+moorings.line_1={model="spring_damper", body="spar", anchor_m=[9.0, 0.0, -9.0], fairlead_m=[0.0, 0.0, -5.0], rest_length_m=9.0, axial_stiffness_N=1e8, damping_N_s_m=0.0} : moorings
+joints.bearing={type="revolute", bodies=["earth", "nobody"], point_m=[0.0, 0.0, 119.0], axis=[1.0, 0.0, 0.0]} : joints
 aero.grid.resolution=1.0 : aero.grid
 aero.actuator.width_cells=0.0
 aero.actuator.width_cells=-2.0
