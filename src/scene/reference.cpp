@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "src/scene/error.hpp"
 #include "src/scene/printed.hpp"
@@ -143,18 +144,28 @@ std::string reference_markdown(std::span<const SectionBase* const> sections) {
 
 namespace {
 
-/// Keys with the word in their name, their sentence or those of their choices; the first few.
-std::vector<std::string> speaking_of(std::span<const SectionBase* const> sections, std::string_view word) {
+/// Keys with these words, whatever their case, in their name ("wind speed" in wind.speed_m_s), and then those with them in their
+/// sentence or those of their choices; the first few.
+std::vector<std::string> speaking_of(std::span<const SectionBase* const> sections, std::string_view words) {
   constexpr std::size_t most = 8;
-  const auto has = [&](const std::string& text) { return text.find(word) != std::string::npos; };
-  std::vector<std::string> found;
+  const auto plain = [](std::string text) {
+    for (char& c : text) c = c == '.' || c == '_' ? ' ' : char(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  const std::string wanted = plain(std::string(words));
+  const auto has = [&](const std::string& text) { return plain(text).find(wanted) != std::string::npos; };
+  std::vector<std::string> named, told;
   for (const Entry& entry : entries(sections))
-    for (const Parameter& p : entry.section->parameters())
-      if (has(p.key) || has(p.help) ||
-          std::ranges::any_of(p.choices, [&](const Choice& c) { return has(c.name) || has(c.help); }))
-        found.push_back(entry.heading + "." + p.key);
-  if (found.size() > most) found.resize(most), found.push_back("...");
-  return found;
+    for (const Parameter& p : entry.section->parameters()) {
+      const std::string key = entry.heading + "." + p.key;
+      if (has(key))
+        named.push_back(key);
+      else if (has(p.help) || std::ranges::any_of(p.choices, [&](const Choice& c) { return has(c.name) || has(c.help); }))
+        told.push_back(key);
+    }
+  named.insert(named.end(), told.begin(), told.end());
+  if (named.size() > most) named.resize(most), named.push_back("...");
+  return named;
 }
 
 /// "bodies.NAME.mass_kg" of "bodies.platform.mass_kg"; all else as it is.
