@@ -258,4 +258,59 @@ scene::Doubts standing_rotor_doubts(const Scenario& s) {
   return all;
 }
 
+scene::Doubts lean_doubts(const FloatingSystem& floating, const aero::RotorLoads& rotor, const Start& start) {
+  scene::Doubts doubts;
+  constexpr double most = 0.03, near = 0.3;
+  const aero::RotorState now = rotor.state(0.0, start.state.motions);
+  const double thrust = std::abs(rotor.load(0.0, now).thrust);
+  for (const auto& [name, beam] : floating.scenario().beams) {
+    const double length = (beam.end_m - beam.start_m).norm();
+    if ((now.hub - beam.end_m).norm() > near * length) continue;
+    const beam::Properties p = read_properties(beam);
+    double lean = 0.0;
+    for (std::size_t n = 1; n < p.position.size(); ++n) {
+      const double step = p.position[n] - p.position[n - 1], arm = length - 0.5 * (p.position[n] + p.position[n - 1]);
+      lean += thrust * arm * arm * step / (0.5 * (p.bending_x[n] + p.bending_x[n - 1]));
+    }
+    if (lean > most * length)
+      doubts.push_back({"beams." + name,
+                        fmt::format("the thrust of {:.3g} kN bends its end by {:.3g} m, {:.2g} % of its length", 1e-3 * thrust,
+                                    lean, 100.0 * lean / length),
+                        fmt::format("up to {:g} %: steel yields there", 100.0 * most),
+                        "look at the units of its properties and moduli, and whether diameters are radii"});
+  }
+  return doubts;
+}
+
+scene::Doubts wake_doubts(const FloatingSystem& floating, const Start& start) {
+  scene::Doubts doubts;
+  constexpr double spreading = 0.1, reach = 20.0;  // diameters behind which a wake has mostly recovered
+  const std::vector<Scenario> each = by_rotor(floating.scenario());
+  for (std::size_t n = 0; n < each.size(); ++n)
+    for (std::size_t m = 0; m < each.size(); ++m) {
+      if (m == n) continue;
+      const RotorSource &rotor = floating.rotors()[n], &other = floating.rotors()[m];
+      const aero::RotorState at = rotor.loads.state(0.0, start.state.motions),
+                             ahead = other.loads.state(0.0, start.state.motions);
+      const Eigen::Vector3d from = at.hub - ahead.hub;
+      if (n > m && from.norm() < rotor.radius + other.radius && std::abs(from.dot(at.axis)) < 0.1 * rotor.radius)
+        doubts.push_back(
+            {each[n].rotor_section,
+             fmt::format("hubs of {} and {} are {:.4g} m apart", each[m].rotor_section, each[n].rotor_section, from.norm()),
+             fmt::format("more than {:.4g} m, the two radii together", rotor.radius + other.radius),
+             "blades would meet: look at the hubs' places"});
+      const Eigen::Vector3d wind = rotor.loads.wind().at(0.0, ahead.hub);
+      if (floating.scenario().aero.model == "prescribed" || wind.norm() == 0.0) continue;
+      const double behind = from.dot(wind.normalized()), aside = (from - behind * wind.normalized()).norm();
+      if (behind > 0.5 * other.radius && behind < 2.0 * reach * other.radius &&
+          aside < rotor.radius + other.radius + spreading * behind)
+        doubts.push_back({each[n].rotor_section,
+                          fmt::format("{:.4g} m behind {} in the wind, {:.4g} m aside: in its wake, which is not modelled",
+                                      behind, each[m].rotor_section, aside),
+                          fmt::format("more than {:.4g} m aside there", rotor.radius + other.radius + spreading * behind),
+                          "each rotor meets the undisturbed wind: its thrust and power are those without the other"});
+    }
+  return doubts;
+}
+
 }  // namespace spindrift::coupling
