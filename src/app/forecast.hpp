@@ -70,6 +70,9 @@ inline constexpr double output_seconds = 0.02;
 double peak_memory();
 /// The same now: what was given back is not in it [bytes].
 double resident_memory();
+/// Of a run that begins with what this check has done, in `start_s` of processor time and `resident` bytes: those before what a
+/// census or a grid leaves behind.
+inline BaseCost base_cost(double start_s, double resident) { return {resident + output_bytes, start_s + output_seconds}; }
 /// Processor time of all threads of this process so far [s].
 double processor_seconds();
 
