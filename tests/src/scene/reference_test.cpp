@@ -45,6 +45,6 @@ TEST_CASE("the terminal's reference answers for a section, a key, or a key witho
                     "command line: windw_s: no such section or key; did you mean 'window_s'?");
   CHECK_THROWS_WITH(reference_text(sections, "Runge"),
                     "command line: Runge: no such section or key; keys that speak of it: time.integrator");
-  CHECK_THROWS_WITH(reference_text(sections, "Time window"),
-                    "command line: Time window: no such section or key; keys that speak of it: time.window_s");
+  CHECK_THROWS_WITH(reference_text(sections, "Name stiffness"),
+                    "command line: Name stiffness: no such section or key; keys that speak of it: moorings.NAME.stiffness_N_m");
 }
