@@ -11,7 +11,7 @@ bool Plan::sort_is_due(double drift) const {
 }
 
 void Plan::sorted() {
-  drift = solid_drift = travel = solid_travel = 0.0;
+  drift = solid_drift = travel = solid_travel = shifted = 0.0;
   sort = false;
 }
 

@@ -43,6 +43,15 @@ std::vector<double> steps_of_window(const StepControl& control) {
 
 }  // namespace
 
+TEST_CASE("after a sort nothing of what moved before it counts", "[sph][step_plan][fast]") {
+  Plan plan;
+  plan.drift = plan.travel = plan.solid_drift = plan.solid_travel = plan.shifted = 0.01;
+  plan.sort = true;
+  plan.sorted();
+  CHECK_FALSE(plan.sort);
+  for (const double moved : {plan.drift, plan.travel, plan.solid_drift, plan.solid_travel, plan.shifted}) CHECK(moved == 0.0);
+}
+
 TEST_CASE("the steps of a window add up to it and stay below the limit", "[sph][step_plan][fast]") {
   SECTION("one by one") { CHECK(steps_of_window({}).size() > 66); }
   SECTION("some at a time, with a margin for limits that tighten") {
