@@ -96,7 +96,11 @@ void Checkpoints::copy(std::int64_t window) {
 /// The unit of time, which follows from more than one key; the scene itself was compared before (src/scene/identity.hpp).
 void Checkpoints::require_same_run(const io::CheckpointReader& file) const {
   if (!file.has("time/tick_s")) return;
-  const double theirs = file.read<double>("time/tick_s").at(0), ours = simulation_.timeline().tick_s();
+  const coupling::Timeline& timeline = simulation_.timeline();
+  const double theirs = file.read<double>("time/tick_s").at(0), ours = timeline.tick_s();
+  if (const double window_s = file.number("window_s"); window_s != timeline.window_s())
+    throw io::InputError(fmt::format("{}: its windows are {:.6g} s long, this scene's {:.6g} s: a restart keeps time.window_s",
+                                     file.path().string(), window_s, timeline.window_s()));
   if (theirs != ours)
     throw io::InputError(
         fmt::format("{}: its time is counted in units of {:.6g} s, this scene's in {:.6g} s: a restart keeps time.window_s and "

@@ -51,6 +51,13 @@ class Identity(Runs):
                 self.assertIn("--allow-change", said)
                 self.assertEqual(self.files(), before)
 
+    def test_windows_of_another_length_are_no_restart_even_where_allowed(self):
+        self.run_case("--until", 1.0)
+        before = self.history()
+        said = self.run_case("--restart", "--until", 2.0, "--set", "time.window_s=0.2", "--allow-change", "time.window_s", code=2)
+        self.assertIn("its windows are 0.1 s long, this scene's 0.2 s: a restart keeps time.window_s", said)
+        self.assertEqual(self.history(), before)
+
     def test_a_changed_file_and_another_scene_are_refused_and_what_is_allowed_goes_on(self):
         for name in ("leble_barakos", "turbines"):
             shutil.copytree(ROOT / "inputs" / name, self.path / name)
