@@ -84,6 +84,7 @@ class Runs:
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
             signal.signal(number, self._stop)
         self.children = []
+        self.killed = set()  # runs that were begun once more
         options = plan["options"]
         cores = len(os.sched_getaffinity(0))
         free = max(1, math.floor(cores - os.getloadavg()[0] + 0.5))
@@ -185,8 +186,15 @@ class Runs:
             if not summary and (out / "study_said.txt").exists():
                 lines = (out / "study_said.txt").read_text(encoding="utf-8", errors="replace").strip().splitlines()
                 entry["reason"] = lines[-1] if lines else f"ended with code {code}"
-            if not summary and (self.stopping or code < 0):
+            if not summary and self.stopping:
                 continue  # cut off: not finished
+            if not summary and code < 0:  # by the kernel for want of memory, say
+                entry["reason"] = f"killed by signal {-code}, twice"
+                if run["name"] not in self.killed:
+                    self.killed.add(run["name"])
+                    say(f"        {run['name']:<44} killed by signal {-code}: once more")
+                    self.begin(rung, run)
+                    continue
             done = self._enter(run, entry, code, summary)
             if done["state"] == "finished":
                 self.results[run["name"]] = done

@@ -195,6 +195,21 @@ measure = "last"
         self.assertIn(done.returncode, (0, 6), done.stdout + done.stderr)
         self.assertIn("wall", " ".join(self.result()["not_tested"] + [done.stdout]))
 
+    def test_a_run_that_is_killed_is_begun_once_more_and_then_told_as_failed(self):
+        text = STUDY.replace("[replicas]", '[variants.base]\n[variants.killed]\nalone = true\nset = ["time.end_s=100000.0"]\n\n[replicas]')
+        process = subprocess.Popen(self.words(text), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        killed = set()
+        while process.poll() is None and all(entry.get("exit_code") != -signal.SIGKILL for entry, _ in self.ledgers().values()):
+            for name, (entry, _) in self.ledgers().items():
+                if name.startswith("killed") and entry["state"] == "under_way" and entry.get("pid", 0) not in killed | {0}:
+                    os.kill(entry["pid"], signal.SIGKILL)
+                    killed.add(entry["pid"])
+            time.sleep(0.01)
+        process.send_signal(signal.SIGTERM)  # the other long runs need not end
+        said, _ = process.communicate(timeout=120)
+        self.assertIn("killed by signal 9: once more", said)
+        self.assertIn("killed by signal 9, twice", [entry.get("reason") for entry, _ in self.ledgers().values()])
+
     def test_a_signal_stops_the_study_and_the_same_command_goes_on(self):
         process = subprocess.Popen(self.words(STUDY), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         while len([1 for entry, _ in self.ledgers().values() if entry["state"] == "finished"]) < 3 and process.poll() is None:
