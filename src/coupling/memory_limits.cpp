@@ -23,7 +23,7 @@ namespace {
 constexpr double of_particle = 100.0, of_cell = 600.0, of_strip = 150.0, of_number = 8.0;
 /// What check foretells at most, with all layers of walls and all variables of the air: for numbers that would fit.
 constexpr double room_of_particle = 800.0, room_of_cell = 2500.0;
-constexpr double most_things = 1e12;  ///< beyond any computer, whatever its memory
+constexpr double most_particles = 4e9;  ///< identities have 32 bits, and the other layers of walls are not counted here
 
 /// Water of the tank, or of its blocks, and one layer of its walls.
 double particles(const Scenario& s, double spacing, double top) {
@@ -51,7 +51,8 @@ Demand sea_demand(const Scenario& s, double memory) {
                 "particles",
                 count,
                 count * of_particle,
-                {}};
+                {},
+                most_particles};
   double fits = walls ? top : d, fails = fits;
   for (int step = 0; step < 200 && particles(s, walls ? d : fits, walls ? fits : top) * room_of_particle > memory; ++step)
     fails = fits, fits *= walls ? 0.5 : 2.0;
@@ -101,7 +102,11 @@ std::vector<Demand> demands_of(const Scenario& s, double memory) {
 void require_memory(const Scenario& s, double memory) {
   std::vector<scene::Problem> problems;
   for (const Demand& demand : demands_of(s, memory))
-    if (demand.count > most_things || !(demand.bytes <= memory))
+    if (demand.count > demand.most && demand.bytes <= memory)
+      problems.push_back(
+          {s.source, 0, demand.key, demand.value,
+           fmt::format("makes {:.4g} {}: at most {:g} can be told apart", demand.count, demand.things, demand.most)});
+    else if (!(demand.bytes <= memory))
       problems.push_back({s.source, 0, demand.key, demand.value,
                           fmt::format("makes {:.4g} {}, which take {} or more; there are {}; {} would fit", demand.count,
                                       demand.things, bytes_text(demand.bytes), bytes_text(memory), demand.that_fits)});

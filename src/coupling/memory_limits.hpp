@@ -16,6 +16,7 @@ struct Demand {
   std::string things;      ///< "particles"
   double count = 0.0, bytes = 0.0;
   std::string that_fits;  ///< a value of the key that would do
+  double most = 1e12;     ///< that can be told apart, whatever the memory
 };
 
 /// What the scene takes at least, and what would fit into so much.

@@ -27,6 +27,7 @@ TEST_CASE("what no machine holds is named with the number that would fit", "[cou
   CHECK_NOTHROW(require(platform, {}));
   CHECK_THROWS_WITH(require(tank, {"sea.particles.spacing_m=1e-9"}), Contains("sea.particles.spacing_m") && Contains("at least"));
   CHECK_THROWS_WITH(require(tank, {"sea.tank.top_m=1e12"}), Contains("sea.tank.top_m") && Contains("at most"));
+  CHECK_THROWS_WITH(require(tank, {"sea.particles.spacing_m=2e-6"}, 1e16), Contains("at most 4e+09 can be told apart"));
   CHECK_THROWS_WITH(require(platform, {"sea.strip_length_m=1e-12"}), Contains("sea.strip_length_m") && Contains("at least"));
   CHECK_THROWS_WITH(require("validation/cylinder_low_mach/cylinder.toml", {}, 1e6), Contains("aero.flow.generate.around"));
 }
