@@ -103,6 +103,15 @@ void doubt_stall(scene::Doubts& doubts, const FlowOptions& flow) {
          "take aero.flow.time = \"bdf2\" and means over time, or look at its unit"});
 }
 
+/// The wake of a cylinder is steady up to Reynolds numbers of 47 (Williamson 1996, Annu. Rev. Fluid Mech. 28, 477).
+void doubt_shedding(scene::Doubts& doubts, const FlowOptions& flow, double reynolds) {
+  constexpr double most = 47.0;
+  if (flow.generate->kind != "cylinder" || flow.viscous == "none" || flow.time != "steady" || reynolds <= most) return;
+  doubts.push_back({"aero.flow.time", fmt::format("\"steady\" round a cylinder at a Reynolds number of {:.3g}", reynolds),
+                    fmt::format("up to {:g}: beyond, vortices are shed", most),
+                    "take aero.flow.time = \"bdf2\" and means over time: a steady march has a third less drag"});
+}
+
 /// A window in which the air passes the body twice resolves no vortex shedding.
 void doubt_window(scene::Doubts& doubts, const FlowOptions& flow, double passes, double window) {
   if (flow.time == "steady") return;
@@ -390,7 +399,9 @@ scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, 
                       "below that of sound, which blades do not reach", "look at its unit: m/s, not km/h"});
   const double length = length_of(flow);
   if (length == 0.0) return doubts;
-  doubt_closure(doubts, flow, air_density * speed * length / flow.viscosity_Pa_s);
+  const double reynolds = air_density * speed * length / flow.viscosity_Pa_s;
+  doubt_closure(doubts, flow, reynolds);
+  doubt_shedding(doubts, flow, reynolds);
   doubt_window(doubts, flow, speed * window / length, window);
   doubt_far_side(doubts, *flow.generate, length);
   if (!is_wing(*flow.generate)) return doubts;
