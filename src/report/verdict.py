@@ -490,6 +490,28 @@ def _air_mass(run):
     return Check("good" if left < 0.01 else "warn", "Air mass", text + ("" if left < 0.01 else ": a smaller aero.flow.drop, or more max_pseudo_steps"))
 
 
+def _drop_of_windows(run):
+    """Do the pseudo-steps of the air's windows come to the drop that the scene asks for, of what it is counted by?"""
+    drop = _value(run.scene, "aero", "flow", "drop")
+    by_balance = _value(run.scene, "aero", "flow", "drop_of") == "balance"
+    name, what = ("air.balance_drop", "flux balance") if by_balance else ("air.residual_drop", "density residual")
+    if name not in run.columns or not isinstance(drop, (int, float)):
+        return None
+    made = np.isfinite(run.column(name))
+    if "air.pseudo_steps" in run.columns:   # the row of the start has none
+        made &= run.column("air.pseudo_steps") > 0
+    values = run.column(name)[made]
+    if not len(values):
+        return None
+    if drop == 0.0:   # the scene asks for all its pseudo-steps, whatever they reach
+        middle = float(np.median(values))
+        return Check("good" if middle <= 0.1 else "warn", "Air", f"the {what} falls to {words.number(middle, 2)} of its start in the median window, "
+                     f"to {words.number(float(values.max()), 2)} in the worst")
+    share = float(np.mean(values <= drop))
+    return Check("good" if share >= 0.9 else "warn", "Air", f"the {what} falls to {drop:g} of its start in {100 * share:.0f} % of the windows"
+                 + ("" if share >= 0.9 else "; the others end at max_pseudo_steps"))
+
+
 def _windows(run):
     found = []
     if "coupling.mismatch" in run.columns:
@@ -506,19 +528,8 @@ def _windows(run):
                                f"loads in and out of a window differ by at most {words.number(100 * worst, 2)} %"
                                + (f"; asked: {words.number(100 * asked, 2)} %" if strong and isinstance(asked, (int, float)) else "")
                                + (": windows are too long for a scheme that does not iterate" if apart else "")))
-    drop = _value(run.scene, "aero", "flow", "drop")
-    if "air.residual_drop" in run.columns and isinstance(drop, (int, float)):
-        values = run.column("air.residual_drop")
-        values = values[np.isfinite(values)]
-        share = float(np.mean(values <= drop)) if len(values) else 0.0
-        if drop == 0.0 and len(values):   # the scene asks for all its pseudo-steps, whatever they reach
-            middle = float(np.median(values))
-            found.append(Check("good" if middle <= 0.1 else "warn", "Air", f"the residual falls to {words.number(middle, 2)} of its start in the median window, "
-                               f"to {words.number(float(values.max()), 2)} in the worst"))
-        else:
-            found.append(Check("good" if share >= 0.9 else "warn", "Air",
-                               f"the residual falls to {drop:g} of its start in {100 * share:.0f} % of the windows"
-                               + ("" if share >= 0.9 else "; the others end at max_pseudo_steps")))
+    if check := _drop_of_windows(run):
+        found.append(check)
     if is_steady(run) and (check := _residual(run)):
         found.append(check)
     return found
@@ -585,7 +596,8 @@ def _marched(run):
         if name in run.columns:
             last = run.column(name)[-back:]
             change, size = float(np.ptp(last)), abs(float(last[-1]))
-            floor = 0.02 * abs(float(run.column("flow.lift_coefficient")[-1])) if text == "drag coefficient" and "flow.lift_coefficient" in run.columns else 0.0
+            other = {"drag coefficient": "flow.lift_coefficient", "lift coefficient": "flow.drag_coefficient"}.get(text)
+            floor = 0.02 * abs(float(run.column(other)[-1])) if other in run.columns else 0.0   # a section at no incidence has no lift
             if change > STILL * max(size, floor):
                 moving.append(f"{text} by {words.number(100 * change / max(size, 1e-300), 2)} %")
     if moving:

@@ -798,6 +798,17 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual(found.level, level)
                 self.assertIn(f"{reached}", found.text)
 
+    def test_windows_are_judged_by_what_their_drop_counts_and_not_by_the_row_of_the_start(self):
+        t = np.linspace(0, 1, 11)
+        table = {"time_s": t, "air.pseudo_steps": np.where(t > 0, 7.0, -1.0), "air.residual_drop": np.where(t > 0, 0.01, 1e-6), "air.balance_drop": np.where(t > 0, 1e-4, 1.0)}
+        for counted, level in (("balance", "good"), ("density", "warn")):
+            with tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(folder, table=table, scene=f"[aero.flow]\ndrop = 1e-3\ndrop_of = \"{counted}\"\n", log="")
+                found = {c.title: c for c in verdict.health(RunData(folder))}["Air"]
+                self.assertEqual(found.level, level)
+                self.assertIn(counted, found.text)
+                self.assertIn("100 %" if level == "good" else " 0 %", found.text)
+
     def test_a_section_of_one_figure_takes_half_of_the_page_unless_it_is_wide(self):
         one = "<figure>a</figure>"
         self.assertTrue(html_page.section("k", "t", one + "<details>" + one + "</details>")["half"])
