@@ -18,9 +18,9 @@ struct Domain {
   std::array<double, dim> low, high;
   std::array<bool, dim> periodic{}, open{};  ///< open: without a wall there
   bool mirrored = false;                     ///< in 3-D: the side low[1] is a plane of symmetry
-  /// The walls' outer faces, where there are walls, and the height of their upper edge: water beyond these and over that has
-  /// left.
-  std::array<double, dim> outer_low = everywhere(-1.0), outer_high = everywhere(1.0);
+  /// Where the walls' first rows of particles end, where there are walls, and the height of their upper edge. Water beyond is in
+  /// a wall, where it would fall between the rows and come out anywhere: over the edge it has left, below it is lost.
+  std::array<double, dim> wall_low = everywhere(-1.0), wall_high = everywhere(1.0);
   double edge = std::numeric_limits<double>::infinity();
   bool contains(const std::array<double, dim>& x) const {
     for (int k = 0; k < dim; ++k)
@@ -32,10 +32,10 @@ struct Domain {
     x.fill(sign * std::numeric_limits<double>::infinity());
     return x;
   }
-  bool passed_edge(const std::array<double, dim>& x) const {
-    bool outside = false;
-    for (int k = 0; k < dim - 1; ++k) outside = outside || x[k] < outer_low[k] || x[k] > outer_high[k];
-    return outside && x[dim - 1] > edge;
+  bool in_wall(const std::array<double, dim>& x) const {
+    for (int k = 0; k < dim; ++k)
+      if (x[k] < wall_low[k] || x[k] > wall_high[k]) return true;
+    return false;
   }
   /// The mirror image in the plane of symmetry.
   double image(double y) const { return 2.0 * low[1] - y; }
@@ -45,7 +45,7 @@ struct Domain {
     for (int k = 0; k < dim - 1; ++k)
       if (open[k] && (x[k] < low[k] || x[k] >= high[k])) return Exit::open_side;
     const bool over_top = x[dim - 1] >= high[dim - 1] && std::isfinite(edge) && std::isfinite(x[dim - 1]);
-    return over_top || passed_edge(x) ? Exit::over_edge : Exit::lost;
+    return over_top || (in_wall(x) && x[dim - 1] > edge) ? Exit::over_edge : Exit::lost;
   }
 };
 

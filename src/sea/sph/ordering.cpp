@@ -105,7 +105,7 @@ void Sorting<dim, Real>::classify(int part) {
       x[k] = store_.x[k][slot];
     }
     const int owner = store_.owner[slot / cluster_size];
-    const bool inside = domain.contains(x) && !(owner == 0 && domain.passed_edge(x));
+    const bool inside = domain.contains(x) && !(owner == 0 && domain.in_wall(x));
     const int group = inside ? columns_.group(x) : -1;
     if (inside && subdomain_.owns(group))
       bin_of_[slot] = std::uint32_t(bin(place_[std::size_t(group)], owner));

@@ -633,12 +633,14 @@ class Layout {
       const auto& side = k == 0 ? plan_.x : plan_.y;
       if ((domain.open[k] = plan_.open[std::size_t(k)])) domain.low[k] = side[0], domain.high[k] = side[1];
       if (!walled(std::size_t(k))) continue;
-      const double outside = (layers_ + 0.5) * p_.spacing;
-      if (!(k == 0 && plan_.paddle)) domain.outer_low[k] = side[0] - outside;
-      domain.outer_high[k] = side[1] + outside;
+      if (!(k == 0 && plan_.paddle)) domain.wall_low[k] = side[0] - p_.spacing;
+      domain.wall_high[k] = side[1] + p_.spacing;
     }
     if constexpr (dim == 3)
-      if ((domain.mirrored = plan_.mirrored)) domain.low[1] = plan_.y[0], domain.outer_low[1] = domain.everywhere(-1.0)[1];
+      if ((domain.mirrored = plan_.mirrored)) domain.low[1] = plan_.y[0], domain.wall_low[1] = domain.everywhere(-1.0)[1];
+    domain.wall_low[dim - 1] = plan_.bed_at(plan_.x[0]);
+    for (const auto& point : plan_.bed) domain.wall_low[dim - 1] = std::min(domain.wall_low[dim - 1], point[1]);
+    domain.wall_low[dim - 1] -= p_.spacing;
     domain.edge = plan_.top - p_.spacing;
     domain.low[dim - 1] = lowest - margin;
     domain.high[dim - 1] = highest + 2.0 * (highest + plan_.depth) + margin;

@@ -175,12 +175,16 @@ TEST_CASE(
     sea.advance(0.1);
     return sea.state().gone();
   };
-  domain.outer_high[0] = 1.2, domain.edge = -0.5;
+  domain.wall_high[0] = 1.2, domain.edge = -0.5;
   CHECK_THROWS_WITH(gone({20.0, -1.0}), Catch::Contains("over the upper edge") && Catch::Contains("sea.tank.over_edge"));
   p.left_at_most = 1;
   CHECK(gone({20.0, -1.0}).over_edge == 1);
   domain.edge = 0.9;  // now the particle is under it: through the wall
   CHECK_THROWS_WITH(gone({20.0, -1.0}), Catch::Contains("through its walls"));
+  p.lost_at_most = 1;
+  CHECK(gone({8.0, 0.0}).lost == 1);  // short of where walls end: between their rows
+  domain.edge = -0.5;
+  CHECK(gone({8.0, 0.0}).over_edge == 1);
   domain.open = {true, false};
   CHECK(gone({20.0, -1.0}).through_open_sides == 1);
   CHECK(gone({20.0, -1.0}).lost == 0);
