@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/failure.hpp"
 #include "runtime/mpi/stop_request.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/grid/wall_distance.hpp"
@@ -259,11 +260,7 @@ std::vector<SpanLoad> ResolvedRotor::span_loads(std::span<const PseudoRow> rows)
 // ---- windows
 
 void ResolvedRotor::prepare(MPI_Comm comm, runtime::ExecutorOptions options) {
-  {
-    runtime::Graph geometry(comm);
-    solver_->record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
-  }
+  solver_->fill_geometry(comm);
   runtime::Graph graph(comm);
   solver_->record(graph);
   march_ = std::make_unique<runtime::Executor>(std::move(graph), options);

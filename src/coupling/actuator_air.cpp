@@ -144,9 +144,7 @@ class ActuatorAir final : public MarchingAir {
         conditions_);
     solver->start_uniform();
     wind().begin(*solver);
-    runtime::Graph geometry(world_.comm);
-    solver->record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    solver->fill_geometry(world_.comm);
     return solver;
   }
   std::shared_ptr<aero::Actuator> actuator_of(const aero::AeroOptions& aero, const aero::DiscMotion& rotor) const {

@@ -206,6 +206,7 @@ void MarchingAir::open_output(const io::RunDirectory& directory, double resume_s
 }
 
 void MarchingAir::end_window() {
+  has_made_windows_ = true;
   const aero::PseudoStep& last = solver_->march().last;
   const bool first = limits_.shortened() + limits_.clipped() == 0;
   limits_.count(last.limited, last.clipped);
@@ -233,6 +234,8 @@ std::string MarchingAir::failure_at_end() const {
   return walls.empty() ? walls : "air: " + walls;
 }
 
-void MarchingAir::write_span() { coupling::write_span(world_, span_loads(), *directory_); }
+void MarchingAir::write_span() {
+  if (has_made_windows_) coupling::write_span(world_, span_loads(), *directory_);
+}
 
 }  // namespace spindrift::coupling

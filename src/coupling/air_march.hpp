@@ -40,6 +40,7 @@ class MarchingAir : public AirSide {
   Writing copy_fields(std::int64_t number, double t) final { return output_->copy(number, t); }
   void write_span() final;
   void end_window() final;
+  void fill_gradients() final { solver_->fill_gradients(world_.comm); }
   Account account() const final;
   std::string failure_at_end() const final;
   std::vector<std::string> log_lines() final { return std::exchange(log_lines_, {}); }
@@ -103,6 +104,7 @@ class MarchingAir : public AirSide {
   /// Of the last pseudo-steps of windows of this process.
   aero::UpdateLimits limits_;
   aero::LimitPlaces worst_limits_;
+  bool has_made_windows_ = false;  ///< since this process began
 };
 
 /// Of the air in a coupled window [s].

@@ -80,6 +80,7 @@ class AirSide {
   virtual void open_output(const io::RunDirectory&, double /*resume_s*/) {}
   /// A copy of the fields as they are, to be written while the air lives; empty where there are none.
   virtual Writing copy_fields(std::int64_t /*number*/, double /*t*/) { return {}; }
+  /// Of the last window that this process has made; what there is stays where it has made none.
   virtual void write_span() {}
   /// A window has ended well: its state is what the next one goes on from. Collective.
   virtual void end_window() {}
@@ -89,6 +90,8 @@ class AirSide {
     std::vector<std::string> doubts, sentences;
   };
   virtual Account account() const { return {}; }
+  /// A state from a file gets what is said and written of it besides: friction, y+. Collective.
+  virtual void fill_gradients() {}
   /// Why its loads are no answer, of the run at its end; empty where they are. Collective.
   virtual std::string failure_at_end() const { return {}; }
   /// Sentences for the log since it was last asked; those that begin with "warning: " warn.

@@ -141,9 +141,7 @@ class ResolvedAir final : public MarchingAir {
     solver_->start_uniform();
     wind().begin(*solver_);
     place_at(state_, setup_.dt);
-    runtime::Graph geometry(world_.comm);
-    solver_->record_geometry(geometry);
-    runtime::Executor(std::move(geometry), {.threads = 1}).run();
+    solver_->fill_geometry(world_.comm);
     place_wind();
   }
   void make_anew(const Send& send) override {

@@ -40,10 +40,10 @@ SeaOutput::SeaOutput(const FloatingSystem& floating, const std::filesystem::path
 }
 
 Writing SeaOutput::copy(std::int64_t number, double t) const {
-  Writing particles = particles_ ? copy_particles(number, t) : Writing();
-  if (!surface_) return particles;
-  Writing surface = copy_surface(number, t);
-  if (!particles_) return surface;
+  Writing particles = particles_ && !particles_->ends_with(t) ? copy_particles(number, t) : Writing();
+  Writing surface = surface_ && !surface_->ends_with(t) ? copy_surface(number, t) : Writing();
+  if (!surface) return particles;
+  if (!particles) return surface;
   return [particles = std::move(particles), surface = std::move(surface)] { particles(), surface(); };
 }
 

@@ -21,7 +21,8 @@ class SeaOutput {
   /// Collective. Files go to `folder`; a restart goes on after resume_s.
   SeaOutput(const FloatingSystem& floating, const std::filesystem::path& folder, const runtime::World& world,
             double resume_s = io::from_the_start);
-  /// A copy of the state at time t [s], to be written while this object lives, as files of this number. Collective.
+  /// A copy of the state at time t [s], to be written while this object lives, as files of this number; of the series that do not
+  /// end there already. Collective.
   Writing copy(std::int64_t number, double t) const;
 
  private:

@@ -164,6 +164,9 @@ class SharedAir final : public AirSide {
   void end_window() override {
     if (own_) own_->end_window();
   }
+  void fill_gradients() override {
+    if (own_) own_->fill_gradients();
+  }
   Account account() const override {
     Account account;
     broadcast_from(

@@ -35,6 +35,11 @@ struct Series {
   void append(double time_s, const std::string& grid) {
     on_root(comm, [&] { xdmf->append(time_s, grid); });
   }
+  bool ends_with(double time_s) const {
+    int same = rank_of(comm) == 0 && xdmf->last_s() == time_s ? 1 : 0;
+    MPI_Bcast(&same, 1, MPI_INT, 0, comm);
+    return same == 1;
+  }
 };
 
 namespace {
@@ -206,12 +211,7 @@ void GridFields::write(std::int64_t tick, double time_s, std::span<const Values>
   series.append(time_s, impl_->grid(time_s, name));
 }
 
-bool GridFields::ends_with(double time_s) const {
-  const Series& series = impl_->series;
-  int same = rank_of(series.comm) == 0 && series.xdmf->last_s() == time_s ? 1 : 0;
-  MPI_Bcast(&same, 1, MPI_INT, 0, series.comm);
-  return same == 1;
-}
+bool GridFields::ends_with(double time_s) const { return impl_->series.ends_with(time_s); }
 
 struct ParticleFields::Impl {
   Series series;
@@ -234,6 +234,8 @@ ParticleFields::ParticleFields(MPI_Comm comm, fs::path folder, std::string name,
   impl_->series.open(resume_s);
 }
 ParticleFields::~ParticleFields() = default;
+
+bool ParticleFields::ends_with(double time_s) const { return impl_->series.ends_with(time_s); }
 
 void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std::int64_t> ids, std::span<const double> positions,
                            std::span<const std::span<const double>> fields) {

@@ -71,6 +71,8 @@ class ParticleFields {
   /// rank.
   void write(std::int64_t tick, double time_s, std::span<const std::int64_t> ids, std::span<const double> positions,
              std::span<const std::span<const double>> fields);
+  /// As GridFields::ends_with.
+  bool ends_with(double time_s) const;
 
  private:
   struct Impl;

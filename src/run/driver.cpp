@@ -64,7 +64,10 @@ io::Summary Driver::run(Simulation& simulation) {
       simulation.outputs(directory_, settings_.restart ? timeline.window_end_s(first) : io::from_the_start);
   std::vector<Output*> outputs{&rows, &checkpoints, &progress};  // files for people last: they may fail
   for (const auto& output : fields) outputs.push_back(output.get());
-  if (!settings_.restart) begin_outputs(outputs, simulation, first);
+  if (settings_.restart)
+    for (Output* output : outputs) output->resume(first);
+  else
+    begin_outputs(outputs, simulation, first);
 
   while (window < last && summary_.exit_code == 0) {
     ledger_.begin_window(window + 1, settings_.keep(window + 1));

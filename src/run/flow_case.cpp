@@ -209,12 +209,6 @@ void FlowCase::follow_walls(const aero::FlowOptions& o) {
   own_grid_ = std::move(placed);
 }
 
-void FlowCase::fill_geometry(MPI_Comm comm) {
-  runtime::Graph geometry(comm);
-  solver_->record_geometry(geometry);
-  runtime::Executor(std::move(geometry), {.threads = 1}).run();
-}
-
 void FlowCase::place(std::int64_t window, double window_s) {
   solver_->motion().place(motion_->poses(double(window - 1) * window_s), motion_->poses(double(window) * window_s));
 }
@@ -252,7 +246,7 @@ void FlowCase::start_on_coarser_grids(const coupling::Scenario& s, runtime::Exec
     std::unique_ptr<FlowCase> next(
         new FlowCase(std::move(grids.back()), s, world, o.coarse_steps.value_or(aero::usual_coarse_steps)));
     grids.pop_back();
-    next->fill_geometry(world.comm);
+    next->solver().fill_geometry(world.comm);
     aero::FlowSolver& solver = next->solver();
     runtime::Graph graph(world.comm);
     solver.record(graph);

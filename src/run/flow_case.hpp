@@ -38,8 +38,6 @@ class FlowCase {
   std::size_t blocks() const { return store_->tiling().block_cells.size(); }
   bool steady() const { return solver_->setting().time_order == 0; }
 
-  /// Metrics of all tiles; before any march.
-  void fill_geometry(MPI_Comm comm);
   /// Where the walls that move, and lines of force, are after so many windows.
   void place(std::int64_t window, double window_s);
   /// Where they go in the window that follows.

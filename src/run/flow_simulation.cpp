@@ -52,7 +52,7 @@ FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::Run
                double(air_.solver().bytes() + air_.store().bytes()) / double(std::max(1L, air_.solver().cells())) * world.size);
   if (air_.rotor())
     if (const std::string note = aero::far_side_note(*scenario.aero.grid); !note.empty()) spdlog::warn("air: {}", note);
-  air_.fill_geometry(world.comm);
+  air_.solver().fill_geometry(world.comm);
 }
 
 /// preconditioner = "auto" became this one; scene.toml then names it, so that it runs alike.
@@ -105,7 +105,7 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
 
 /// What is said and written of the flow needs its residual and its slopes at walls.
 void FlowSimulation::nothing_left() {
-  if (!air_.steady()) return;
+  if (!air_.steady()) return air_.solver().fill_gradients(world_.comm);
   air_.solver().judgement().march.judge_only();
   march_->run();
 }

@@ -47,6 +47,8 @@ class Output {
   virtual std::string_view label() const = 0;
   /// The state that a run begins with, which is the end of `window`; not called after a restart.
   virtual void begin(std::int64_t /*window*/) {}
+  /// The state that a restart begins with. Checkpoints come before files for people, and so may be there without them.
+  virtual void resume(std::int64_t /*window*/) {}
   virtual bool due(const Windows& done) const = 0;
   /// @pre due(done); the simulation's state is that of the end of done.now. What takes long to write is copied, and handed on to
   /// Simulation::output(), which writes it beside the next window.

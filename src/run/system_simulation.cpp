@@ -46,6 +46,7 @@ void restore_particles(const coupling::FloatingSystem& floating, const io::Check
       const std::vector<std::int64_t> sums = file.read<std::int64_t>("sea/energy");
       if (sums.size() == 3) state.energy = {sums[0], sums[1], sums[2]};
     }
+    if (file.has("sea/made_J")) state.made_J = file.read<double>("sea/made_J").at(0);
     floating.particles()->restore(state);
   } catch (const std::invalid_argument& e) { throw io::InputError(file.path().string() + ": " + e.what()); }
 }
@@ -125,6 +126,7 @@ class SeaFields final : public Output {
   void begin(std::int64_t window) override {
     if (every_.due(window)) write(window);
   }
+  void resume(std::int64_t window) override { begin(window); }
   bool due(const Windows& done) const override { return every_.due(done); }
   void take(const Windows& done) override { write(done.now); }
 
@@ -147,6 +149,11 @@ class AirFields final : public Output {
     every_.windows = every_.from = Every::count(floating.scenario().air_interval_s(), floating.timeline());
   }
   std::string_view label() const override { return "output/air"; }
+  void resume(std::int64_t window) override {
+    if (!every_.due(window)) return;
+    air_.fill_gradients();
+    write(window);
+  }
   bool due(const Windows& done) const override { return every_.due(done) && done.now < done.last; }
   void take(const Windows& done) override { write(done.now); }
   void finish(std::int64_t window) override { write(window), air_.write_span(); }
@@ -281,6 +288,7 @@ void SystemSimulation::save(io::CheckpointCopy& copy) {
   copy.set("sea/steps", particles.steps);
   const std::array sums{particles.energy.onto_water, particles.energy.from_solids, particles.energy.absorbed};
   copy.write<std::int64_t>("sea/energy", sums);
+  copy.write<double>("sea/made_J", std::array{particles.made_J});
   if (!floating_.particle_plan()->sensors.empty()) copy.write<double>("sea/sensors", particles.sensors);
   std::vector<coupling::SavedArray> arrays;  // not by a list, which copies
   arrays.push_back({coupling::particles_name, particles.total, {}});

@@ -28,6 +28,7 @@ class SystemSimulation final : public Simulation {
 
   std::int64_t begin(const io::RunDirectory& directory) override;
   void restore(const io::CheckpointReader& file) override;
+  void nothing_left() override { window_.sides().air().fill_gradients(); }
   void save(io::CheckpointCopy& copy) override;
   Advance advance(std::int64_t window, std::int64_t last) override;
   coupling::OutputTask& output() override { return window_.sides().output(); }

@@ -148,7 +148,7 @@ class Sea final : public ParticleSea {
     plan.left = 1.0;                               // until the driver calls a step the last
     plan.drift = 2.0 * sea_.parameters().drift();  // sorts first: what follows depends on the state alone
     plan.failure.reset(), plan.stopped = false;
-    if (!balance_) balance_ = Balance{measured(), sea_.time()};
+    if (!balance_) balance_ = Balance{measured(), sea_.time(), made_before_J_};
     between_windows_ = false;
   }
   void close() override {
@@ -232,6 +232,7 @@ class Sea final : public ParticleSea {
     state.values = sph::by_identity(sea_, particles_, comm_).values;
     for (const sph::PatchRecord& record : sea_.state().records) record.pack(state.sensors);
     state.energy = sea_.state().energy;
+    state.made_J = balance_ ? balance_->made : made_before_J_;
     if (ranks_ > 1) {
       runtime::Packer mine;
       mine.put_one(std::exchange(state.energy, {}));
@@ -250,7 +251,7 @@ class Sea final : public ParticleSea {
     sph::set_by_identity<dim, Real>(sea_, sph::identities_of(particles_, runtime::rank_in(comm_), ranks_), state.values, owner_,
                                     state.time_s, long(state.steps));
     sea_.state().energy = runtime::rank_in(comm_) == 0 ? state.energy : sph::EnergyFlow{};
-    balance_.reset();
+    balance_.reset(), made_before_J_ = state.made_J;
     // A sea with other sensors than the state's begins their means anew.
     std::vector<std::span<const double>> records;
     for (std::span<const double> rest = state.sensors; !rest.empty();) {
@@ -374,6 +375,7 @@ class Sea final : public ParticleSea {
   ParticleSolids<dim, Real> solids_;
   double t_ = 0.0;  ///< at the window's start
   std::optional<Balance> balance_;
+  double made_before_J_ = 0.0;  ///< of the state that a restart begins with
   bool between_windows_ = true;
   // Windows as tasks.
   struct Saved {

@@ -114,6 +114,7 @@ struct ParticleState {
   std::vector<double> values;
   std::vector<double> sensors;  ///< what they have read, the same on all ranks
   sph::EnergyFlow energy;       ///< of all ranks, the same on all of them
+  double made_J = 0.0;          ///< energy of late, out of nothing, which a window is judged by; likewise
   double time_s = 0.0;
   std::int64_t steps = 0;
 };

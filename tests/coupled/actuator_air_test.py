@@ -190,6 +190,9 @@ class ActuatorAir(Runs):
         self.assertAlmostEqual(sum(last[f"rotor.blade_{b}.thrust_N"] for b in (1, 2, 3)) / last["rotor.thrust_N"], 1.0, delta=1e-12)
         thrust = sum(s["length_m"] * s["normal_N_m"] for s in rows(self.path / "run/spanwise.csv"))
         self.assertAlmostEqual(thrust / last["rotor.thrust_N"], 1.0, delta=1e-6)
+        before = (self.path / "run/spanwise.csv").read_bytes()
+        self.run_scene(FLOATING, "run", "--restart")  # nothing is left to do
+        self.assertEqual((self.path / "run/spanwise.csv").read_bytes(), before)
 
     def test_blades_that_leave_the_grid_end_the_run_by_name(self):
         said = self.run_scene(FLOATING, "run", settings=["aero.flow.generate.high_m=[450.0, 450.0, 208.5]", "aero.flow.generate.core_high_m=[50.0, 110.0, 208.5]"],

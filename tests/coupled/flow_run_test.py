@@ -202,6 +202,17 @@ class FlowRun(Folder):
         self.assertEqual(spindrift("run", scene, "--out", self.out, *options, "--restart", *change).returncode, 0)
         self.assertGreater(len((self.out / "history.csv").read_bytes()), len(before))
 
+    def test_an_unsteady_flow_with_nothing_left_to_do_has_the_friction_that_it_had(self):
+        options = ["--no-report", "--quiet", "--until", "0.002", "--set", "aero.flow.generate.around=32", "--set", "aero.flow.generate.outward=16"]
+        found = []
+        for more in ((), ("--restart",)):
+            self.assertEqual(spindrift("run", CASES / "cylinder_re100/cylinder.toml", "--out", self.out, *options, *more).returncode, 0)
+            found.append(field_files.blocks(self.out, "walls"))
+        for name, wall in found[0].items():
+            self.assertGreater(numpy.abs(wall["friction_coefficient"]).max(), 0.0)
+            for field, values in wall.items():
+                numpy.testing.assert_array_equal(found[1][name][field], values, field)
+
     def test_the_automatic_preconditioner_is_written_down_and_kept(self):
         case = CASES / "cylinder_low_mach/cylinder.toml"
         options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]

@@ -3,6 +3,8 @@ and their work on the water is the water's on them.
 Usage: planar_sea_test.py SPINDRIFT [TEST...] SPDX-License-Identifier: Apache-2.0"""
 import unittest
 
+import h5py
+
 from running import ROOT, Folder, columns, spindrift
 
 SCENE = ROOT / "inputs/validation/floating_box/floating_box.toml"
@@ -24,6 +26,27 @@ class Planar(Folder):
         self.assertAlmostEqual(abs(found["plane_box.fy_N"][-1]), 50.0, delta=0.5)
         for part in ("one", "two"):
             self.assertEqual((self.path / "across/history.csv").read_bytes(), self.again(part), part)
+        made = {part: self.made_J(part) for part in ("across", "one", "two")}  # what a later window is judged by
+        self.assertNotEqual(made["across"], 0.0)
+        self.assertEqual(set(made.values()), {made["across"]}, made)
+
+    def made_J(self, name):
+        with h5py.File(max((self.path / name / "checkpoints").glob("*.h5"))) as file:
+            return file["sea/made_J"][0]
+
+    def test_a_field_that_could_not_be_written_beside_its_checkpoint_is_there_after_a_restart(self):
+        settings = ["checkpoint.interval_s=0.1", "sea.fields={interval_s=0.1, surface_spacing_m=0.1}"]
+        self.run_scene("whole", settings=settings)
+        names = sorted(path.name for path in (self.path / "whole/fields").glob("surface_*.h5"))
+        self.assertEqual(len(names), 5)
+        self.run_scene("run", "--until", 0.1, settings=settings)
+        in_the_way = self.path / "run/fields" / names[2]
+        in_the_way.mkdir()
+        stopped = spindrift("run", SCENE, "--out", self.path / "run", "--quiet", "--no-report", "--restart", settings=[*SHORT, *settings])
+        self.assertEqual(stopped.returncode, 4, stopped.stderr)
+        in_the_way.rmdir()
+        self.run_scene("run", "--restart", settings=settings)
+        self.assertEqual(*((self.path / name / "fields/surface.xdmf").read_text() for name in ("whole", "run")))
 
     def again(self, part):
         if part == "one":

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runtime/executor/executor.hpp"
+
 namespace spindrift::aero {
 
 FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
@@ -55,6 +57,16 @@ void FlowSolver::record(runtime::Graph& graph) {
   record_march(graph, {arrays_, time_, motion_, residual_, system_, judgement_}, recorded_);
 }
 
-void FlowSolver::record_geometry(runtime::Graph& graph) { aero::record_geometry(graph, arrays_, motion_, recorded_); }
+void FlowSolver::fill_geometry(MPI_Comm comm) {
+  runtime::Graph graph(comm);
+  record_geometry(graph, arrays_, motion_, recorded_);
+  runtime::Executor(std::move(graph), {.threads = 1}).run();
+}
+
+void FlowSolver::fill_gradients(MPI_Comm comm) {
+  runtime::Graph graph(comm);
+  record_gradients(graph, {arrays_, time_, motion_, residual_, system_, judgement_}, recorded_);
+  runtime::Executor(std::move(graph), {.threads = 1}).run();
+}
 
 }  // namespace spindrift::aero

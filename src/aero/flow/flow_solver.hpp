@@ -66,8 +66,10 @@ class FlowSolver {
   void gather_bands(LoadBands bands);
   /// Records one march: the whole steady solution, or one physical step. See tasks.cpp.
   void record(runtime::Graph& graph);
-  /// Records what fills ghost volumes and centres from other ranks; to be run once, and after each motion of the grid.
-  void record_geometry(runtime::Graph& graph);
+  /// Fills ghost volumes and centres from other ranks; once, and after the grid was placed elsewhere. Collective.
+  void fill_geometry(MPI_Comm comm);
+  /// The same, and ghosts and gradients of the state as it is: friction of a state from a file. Collective.
+  void fill_gradients(MPI_Comm comm);
   /// What recorded graphs refer to is freed: their executors are gone.
   void forget_graphs() { recorded_ = {}; }
 

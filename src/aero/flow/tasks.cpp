@@ -226,7 +226,7 @@ void body_force(MarchRecording& r) {
                [&r] { r.judgement.body_force()->act(r.judgement.force_samples.result); });
 }
 
-void residual_of_state(MarchRecording& r) {
+void gradients_of_state(MarchRecording& r) {
   ghosts_of(r, "aero/ghosts", r.flow.state, r.flow.state_ghosts, false, 1);
   r.each(
       "aero/gradients",
@@ -236,6 +236,10 @@ void residual_of_state(MarchRecording& r) {
       [&r](std::size_t n) { r.residual.gradients(r.tile(n), r.tile(n).state.data()); });
   ghosts_of_gradients(
       r, "aero/gradient_ghosts", [&r] { return r.residual.has_friction(); }, false, 2);
+}
+
+void residual_of_state(MarchRecording& r) {
+  gradients_of_state(r);
   if (r.judgement.body_force()) body_force(r);
   r.each(
       "aero/residual",
@@ -518,6 +522,17 @@ void record_geometry(Graph& graph, TileArrays& arrays, const TileMotion& motion,
     graph.task("aero/geometry/" + std::to_string(arrays.tiles[n].index), {writes(of.inside[n])}, [] {});
   if (arrays.tiles.empty()) graph.task("aero/geometry", {}, [] {});  // a coarse grid may have fewer tiles than there are ranks
   record_centres(graph, arrays, motion, recorded, of, {});
+}
+
+void record_gradients(Graph& graph, const MarchParts& parts, RecordedGraphs& recorded) {
+  auto recording = std::make_shared<MarchRecording>(parts, recorded, graph);
+  recorded.pieces.push_back(recording);
+  MarchRecording& r = *recording;
+  r.each(
+      "aero/geometry", [&](std::size_t n) { return Uses{writes(r.flow.state[n])}; }, [](std::size_t) {});
+  if (r.owned() == 0) graph.task("aero/geometry", {}, [] {});
+  record_centres(graph, r.arrays, r.motion, recorded, {r.flow.state, r.flow.state_ghosts}, {});
+  gradients_of_state(r);
 }
 
 }  // namespace spindrift::aero

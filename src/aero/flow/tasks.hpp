@@ -39,5 +39,7 @@ void record_march(runtime::Graph& graph, const MarchParts& parts, RecordedGraphs
 int tile_of(const runtime::Node& task);
 /// What fills ghost volumes and centres from other ranks.
 void record_geometry(runtime::Graph& graph, TileArrays& arrays, const TileMotion& motion, RecordedGraphs& recorded);
+/// The same, and what fills ghosts and gradients of the state as it is.
+void record_gradients(runtime::Graph& graph, const MarchParts& parts, RecordedGraphs& recorded);
 
 }  // namespace spindrift::aero

@@ -51,9 +51,7 @@ TEST_CASE("two ranks choose as one does", "[flow][mpi2]") {
   int rank;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   Case whole = into_a_wall(1e4), part = into_a_wall(1e4, 2, rank);
-  runtime::Graph geometry(MPI_COMM_WORLD);
-  part.solver->record_geometry(geometry);
-  runtime::Executor(std::move(geometry), {.threads = 1}).run();
+  part.solver->fill_geometry(MPI_COMM_WORLD);
   CHECK(choose_preconditioner(*whole.solver, MPI_COMM_SELF, 1).reason ==
         choose_preconditioner(*part.solver, MPI_COMM_WORLD, 2).reason);
 }

@@ -94,11 +94,7 @@ struct Case {
   }
   /// Records the march; `comm` has as many ranks as the case.
   void prepare(MPI_Comm comm = MPI_COMM_SELF, runtime::ExecutorOptions options = {.threads = 1}) {
-    if (comm != MPI_COMM_SELF) {
-      runtime::Graph geometry(comm);
-      solver->record_geometry(geometry);
-      runtime::Executor(std::move(geometry), {.threads = 1}).run();
-    }
+    if (comm != MPI_COMM_SELF) solver->fill_geometry(comm);
     runtime::Graph graph(comm);
     solver->record(graph);
     executor = std::make_unique<runtime::Executor>(std::move(graph), options);
