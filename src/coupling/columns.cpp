@@ -250,7 +250,9 @@ Table<WaterRow> water_columns() {
       {"work_of_solids_J", "J", "work of bodies, paddle and drive on the water so far",
        [](Of w) { return w.extent.work_of_solids; }},
       {"dissipated_J", "J", "taken by viscosity, density diffusion and walls so far", [](Of w) { return w.extent.dissipated; }},
-      {"absorbed_J", "J", "taken by damping zones so far", [](Of w) { return w.extent.absorbed; }}};
+      {"absorbed_J", "J", "taken by damping zones so far", [](Of w) { return w.extent.absorbed; }},
+      {"left_J", "J", "kinetic and potential energy that particles took along which are no more in the tank",
+       [](Of w) { return w.extent.left; }}};
   return table;
 }
 

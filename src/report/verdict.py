@@ -455,18 +455,20 @@ def _water(run):
         return None
     gained = sum(float(run.column(n)[-1] - run.column(n)[0]) for n in stored)
     work, dissipated, absorbed = (float(run.column(n)[-1] - run.column(n)[0]) for n in flows)
-    made = gained - work + dissipated + absorbed
+    left = float(run.column("sea.left_J")[-1] - run.column("sea.left_J")[0]) if "sea.left_J" in run.columns else 0.0
+    made = gained - work + dissipated + absorbed + left
     turned = max(abs(work) + abs(dissipated) + abs(absorbed), float(np.ptp(run.column(stored[0]))))   # over; of a sea at rest next to nothing
     if not turned > 1e-9 * float(np.abs(run.column(stored[1])).max()):
         return None
     hours, share = (run.time[-1] - run.time[0]) / 3600.0, abs(made) / turned
-    unit, factor = quantities.scaled("J", max(abs(work), abs(dissipated), abs(absorbed)))
-    said = f"work of bodies and paddle {words.number(factor * work, 3)} {unit}, dissipated {words.number(factor * dissipated, 3)}, absorbed in zones {words.number(factor * absorbed, 3)}"
+    unit, factor = quantities.scaled("J", max(abs(work), abs(dissipated), abs(absorbed), abs(left)))
+    said = f"work of bodies and paddle {words.number(factor * work, 3)} {unit}, dissipated {words.number(factor * dissipated, 3)}, absorbed in zones {words.number(factor * absorbed, 3)}" + (
+        f", taken along by water that left {words.number(factor * left, 3)}" if left else "")
     text = (f"{said}; unexplained {words.number(factor * made, 2)} {unit} ({words.number(100 * share, 2)} % of what was turned over, {words.number(factor * made / hours, 2)} {unit} an hour)")
     mass = run.column("sea.mass_kg") if "sea.mass_kg" in run.columns else None
     if mass is not None and mass[-1] != mass[0]:
         text += f"; mass changed by {words.number(100 * (mass[-1] / mass[0] - 1), 2)} %"
-    return Check("good" if share < 0.05 else "warn", "Water", text + ("" if share < 0.05 else ": by time steps, shifting, density filters or lost particles"))
+    return Check("good" if share < 0.05 else "warn", "Water", text + ("" if share < 0.05 else ": by time steps, shifting or density filters"))
 
 
 def _air_mass(run):

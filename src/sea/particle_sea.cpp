@@ -328,7 +328,19 @@ class Sea final : public ParticleSea {
             .compression_energy = mass * all.compression.value(),
             .work_of_solids = quantum * double(all.flow.from_solids),
             .dissipated = quantum * double(all.flow.from_solids - all.flow.onto_water),
-            .absorbed = quantum * double(all.flow.absorbed)};
+            .absorbed = quantum * double(all.flow.absorbed),
+            .left = mass * left_energy()};
+  }
+
+  /// Kinetic and potential energy of all particles that are no more in the tank, of a particle's mass [J/kg].
+  double left_energy() const {
+    BinnedSum sum;  // a restart lists them in another order
+    for (const sph::LostParticle<dim>& particle : sea_.store().lost) {
+      double energy = sea_.parameters().gravity * particle.position[dim - 1];
+      for (int k = 0; k < dim; ++k) energy += 0.5 * particle.velocity[k] * particle.velocity[k];
+      if (std::isfinite(energy)) sum.add(energy);
+    }
+    return sum.value();
   }
 
   /// The last step's end, which no step has checked.

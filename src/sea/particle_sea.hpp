@@ -190,6 +190,7 @@ class ParticleSea {
     double x_max, z_max;
     double mass, kinetic_energy, potential_energy, compression_energy;  ///< [kg], [J]; potential: from still water, z = 0
     double work_of_solids, dissipated, absorbed;                        ///< since the sea was made [J]: energy_flow.hpp
+    double left;  ///< kinetic and potential energy [J] that particles took along which are no more in the tank
   };
   virtual Extent extent() const = 0;
   virtual ParticleSample sample(const std::optional<Eigen::Vector3d>& low, const std::optional<Eigen::Vector3d>& high,

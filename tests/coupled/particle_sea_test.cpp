@@ -211,6 +211,11 @@ TEST_CASE("water leaves through open sides and over the edge, counted apart from
   CHECK(flowing["sea.left_particles"].back() > 100.0);  // five jittered starts: 144 to 145
   CHECK(flowing["sea.x_max_m"].back() < 3.06);
   CHECK(flowing["sea.lost_particles"].back() == 0.0);
+  const auto change = [&](const char* name) { return flowing[name].back() - flowing[name].front(); };
+  const double kept = change("sea.kinetic_energy_J") + change("sea.potential_energy_J") + change("sea.compression_energy_J");
+  CHECK(change("sea.left_J") != 0.0);
+  CHECK(std::abs(kept + change("sea.dissipated_J") + change("sea.left_J") - change("sea.work_of_solids_J")) <
+        0.03 * std::abs(change("sea.potential_energy_J")));
   const scene::Columns splashed = run("sea.particles.spacing_m=0.05", "sea.tank.x_m=[0.0, 1.6]", "sea.tank.top_m=-1.0", edge);
   CHECK(splashed["sea.left_particles"].back() > 0.0);  // five jittered starts: 11 to 26
   CHECK(splashed["sea.lost_particles"].back() == 0.0);

@@ -50,7 +50,7 @@ def run(program, scene, end_s, folder):
 def water(result):
     """Energy that nothing explains over that put in by solids and the start [-], per 1,000 s."""
     change = lambda *names: sum(result[f"sea.{n}_J"] - result[f"sea.{n}_J"][0] for n in names)
-    made = change("kinetic_energy", "potential_energy", "compression_energy") - change("work_of_solids") + change("dissipated", "absorbed")
+    made = change("kinetic_energy", "potential_energy", "compression_energy") - change("work_of_solids") + change("dissipated", "absorbed", "left")
     put_in = np.abs(np.diff(result["sea.work_of_solids_J"])).sum() + np.ptp(result["sea.kinetic_energy_J"])
     return abs(made[-1]) / put_in * 1000.0 / max(result.time[-1], 1000.0)
 

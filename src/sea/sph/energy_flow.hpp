@@ -1,8 +1,8 @@
 // Energy that goes into and out of the water, step by step: from solids, into what viscosity, diffusion and walls take, into
 // damping zones. Each particle's part is rounded to a quantum, a power of two, so that sums are exact: the same for any order,
 // number of threads and ranks. With the energy of the water itself (particle_sea.cpp) they make its balance:
-//   change of kinetic, potential and compression energy = from_solids - dissipated - absorbed + what time steps, shifting,
-//   density filters and lost particles make.
+//   change of kinetic, potential and compression energy = from_solids - dissipated - absorbed - what particles that are no more
+//   in the tank took along + what time steps, shifting and density filters make.
 // Called by tasks.cpp before each group's step, and for solids by body_tasks.cpp while they are where they were loaded; tested in
 // tests/src/sea/sph/energy_flow_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once

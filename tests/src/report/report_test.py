@@ -739,6 +739,11 @@ class PartsTest(unittest.TestCase):
             self.assertEqual(found.level, "warn")
             self.assertIn("unexplained −30", found.text)
             self.assertIn("J an hour", found.text)
+            table["sea.left_J"] = 3.0 * t
+            synthetic_run.write(pathlib.Path(folder) / "left", table=table, scene="", log="")
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "left"))}["Water"]
+            self.assertEqual(found.level, "good")
+            self.assertIn("taken along by water that left 30.0", found.text)
 
     def test_health_closes_the_balance_of_the_mass_of_the_air(self):
         t = np.linspace(0.0, 10.0, 101)
