@@ -143,8 +143,8 @@ const scene::Section<GenerateOptions>& generate_section() {
           .path("coordinates", &GenerateOptions::coordinates,
                 "Outline from the trailing edge along the upper side to the nose and back, over the chord: CSV with columns x_c, "
                 "y_c, "
-                "or .dat with a title and two numbers a line (Selig or Lednicer). A wing with neither it nor `naca` has NACA "
-                "0012.")
+                "or .dat with a title and two numbers a line (Selig or Lednicer). The trailing edge may lie off the x axis (a "
+                "flap): axes stay those of the file. A wing with neither it nor `naca` has NACA 0012.")
           .only_if("kind", {"aerofoil", "wing"})
           .text("naca", &GenerateOptions::naca,
                 "Digits of the section in place of coordinates, four or five: \"4412\" (camber in %, its place in tenths of the "

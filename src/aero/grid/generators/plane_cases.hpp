@@ -35,8 +35,9 @@ struct AerofoilOptions {
 };
 MultiBlockGrid naca0012(const AerofoilOptions& options);
 /// The same round any outline: points from the trailing edge along the upper side to the nose and back along the lower side,
-/// chord 1 from x = 0. An open trailing edge of up to 3 % of the chord is closed. Throws std::invalid_argument with the reason
-/// where no such grid goes round it.
+/// scaled so that the middle of its ends, the trailing edge, lies 1 from the origin; that edge may lie off the x axis (a flap, a
+/// turned section) and stays in its place. An open one of up to 3 % of the chord is closed to its middle. Throws
+/// std::invalid_argument with the reason where no such grid goes round it.
 MultiBlockGrid aerofoil(std::span<const Eigen::Vector2d> outline, const AerofoilOptions& options);
 /// Half thickness at x in [0, 1]; closed at x = 1.
 double naca0012_half_thickness(double x);

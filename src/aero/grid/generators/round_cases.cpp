@@ -49,6 +49,7 @@ class UnrolledAerofoil {
   }
   static constexpr bool symmetric = true;
   double edge() const { return edge_; }  ///< X of the trailing edge, of the lower side with its sign turned
+  std::complex<double> trailing_edge() const { return 1.0; }
   std::complex<double> focus() const { return z0_; }
 
   /// Surface height over X in [-edge, edge].
@@ -81,13 +82,15 @@ class UnrolledAerofoil {
 /// The same of an outline through points, by a cubic spline of the height over X.
 class UnrolledOutline {
  public:
-  /// From the trailing edge along the upper side to the nose and back; about one chord long.
+  /// From the trailing edge along the upper side to the nose and back; about one chord long. The trailing edge may lie off the
+  /// axis, as that of a flap does.
   explicit UnrolledOutline(std::span<const Eigen::Vector2d> outline) {
     std::vector<std::complex<double>> z = closed_at_the_edge(outline);
+    const std::complex<double> end = trailing_edge_ = z.front();
     const std::size_t nose = farthest_from_edge(z);
-    focus_ = z[nose] + 0.5 * nose_radius(z, nose) * (1.0 - z[nose]) / std::abs(1.0 - z[nose]);
-    edge_ = std::sqrt(std::abs(1.0 - focus_));
-    turn_ = std::sqrt((1.0 - focus_) / std::abs(1.0 - focus_));  // the trailing edge comes to lie on the real axis
+    focus_ = z[nose] + 0.5 * nose_radius(z, nose) * (end - z[nose]) / std::abs(end - z[nose]);
+    edge_ = std::sqrt(std::abs(end - focus_));
+    turn_ = std::sqrt((end - focus_) / std::abs(end - focus_));  // the trailing edge comes to lie on the real axis
     x_.resize(z.size()), height_.resize(z.size()), slope_.resize(z.size());
     std::complex<double> last(edge_, 0.0);
     for (std::size_t i = 0; i < z.size(); ++i) {
@@ -105,32 +108,38 @@ class UnrolledOutline {
   }
   static constexpr bool symmetric = false;
   double edge() const { return edge_; }
+  std::complex<double> trailing_edge() const { return trailing_edge_; }
   std::complex<double> focus() const { return focus_; }
   std::complex<double> turn() const { return turn_; }
   double height(double x) const { return std::abs(x) >= edge_ ? 0.0 : interpolate_hermite(x_, height_, slope_, x).value; }
   double slope(double x) const { return std::abs(x) >= edge_ ? 0.0 : interpolate_hermite(x_, height_, slope_, x).slope; }
 
  private:
-  /// Trailing edge at (1, 0): what is open there is closed by a shift that grows with the cube of x.
+  /// In lengths from the origin to the middle of the two ends, where the trailing edge then lies: each side of an open one is
+  /// shifted by half the gap, times the cube of the place along that line.
   static std::vector<std::complex<double>> closed_at_the_edge(std::span<const Eigen::Vector2d> outline) {
     if (outline.size() < 9) throw std::invalid_argument("an outline has at least nine points");
-    const Eigen::Vector2d first = outline.front(), last = outline.back();
-    const double length = 0.5 * (first.x() + last.x());
-    if (std::abs(first.y() - last.y()) > 0.03 * length)
-      throw std::invalid_argument("the trailing edge is more than 3 % of the chord thick: this grid closes it to a sharp one");
     std::vector<std::complex<double>> z;
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const double x = outline[i].x() / length, share = double(i) / double(outline.size() - 1);
-      const double open = (share < 0.5 ? first.y() : last.y()) / length;
-      z.emplace_back(x, outline[i].y() / length - open * x * x * std::abs(x));
+    for (const Eigen::Vector2d& p : outline) z.emplace_back(p.x(), p.y());
+    const std::complex<double> middle = 0.5 * (z.front() + z.back());
+    const double length = std::abs(middle);
+    if (!(length > 0.0)) throw std::invalid_argument("the outline begins and ends at the origin, where its nose belongs");
+    if (std::abs(z.front() - z.back()) > 0.03 * length)
+      throw std::invalid_argument("the trailing edge is more than 3 % of the chord thick: this grid closes it to a sharp one");
+    for (std::complex<double>& p : z) p /= length;
+    const std::complex<double> edge = middle / length, half_gap = 0.5 * (z.front() - z.back());
+    z.front() = z.back() = edge;
+    const std::size_t nose = farthest_from_edge(z);
+    for (std::size_t i = 1; i + 1 < z.size(); ++i) {
+      const double along = (z[i] * std::conj(edge)).real();
+      z[i] -= (i < nose ? half_gap : -half_gap) * along * along * std::abs(along);
     }
-    z.front() = z.back() = 1.0;
     return z;
   }
   static std::size_t farthest_from_edge(std::span<const std::complex<double>> z) {
     std::size_t best = 0;
     for (std::size_t i = 0; i < z.size(); ++i)
-      if (std::abs(z[i] - 1.0) > std::abs(z[best] - 1.0)) best = i;
+      if (std::abs(z[i] - z.front()) > std::abs(z[best] - z.front())) best = i;
     return best;
   }
   /// Of the circle through the nose and a point on either side, some hundredth of the chord away.
@@ -144,7 +153,7 @@ class UnrolledOutline {
     return a * b * c / (2.0 * twice);
   }
 
-  std::complex<double> focus_, turn_;
+  std::complex<double> trailing_edge_, focus_, turn_;
   double edge_ = 0.0;
   std::vector<double> x_, height_, slope_;
 };
@@ -212,7 +221,7 @@ MultiBlockGrid c_grid(const Foil& foil, const AerofoilOptions& o) {
       // Both sides of the wake are one line, that of the lower side.
       if (j == 0 && i >= half_foil) {
         z = position(lines[std::size_t(half - i)], 0.0);
-        if (i == half_foil) z = {1.0, 0.0};
+        if (i == half_foil) z = foil.trailing_edge();
         if (Foil::symmetric) z = {z.real(), 0.0};
       }
       if (Foil::symmetric && m == 0) z = {j == 0 ? 0.0 : z.real(), 0.0};
