@@ -57,7 +57,7 @@ std::string attribute(const Field& field, const std::string& dimensions, const c
                                              : "Tensor";
   const std::string shape = field.components == 1 ? dimensions : fmt::format("{} {}", dimensions, field.components);
   return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", field.name, type, centre,
-                     item(shape, "Float", 4, file, path));
+                     item(shape, "Float", int(field.precision), file, path));
 }
 
 std::vector<hsize_t> with_components(std::vector<hsize_t> extents, int components) {
@@ -66,11 +66,17 @@ std::vector<hsize_t> with_components(std::vector<hsize_t> extents, int component
 }
 
 SharedFile::Array field_array(const std::string& path, const std::vector<hsize_t>& extents, const Field& field) {
-  return {path, H5T_NATIVE_FLOAT, with_components(extents, field.components),
+  const hid_t type = field.precision == Precision::full ? H5T_NATIVE_DOUBLE : H5T_NATIVE_FLOAT;
+  return {path, type, with_components(extents, field.components),
           [unit = field.unit](hid_t dataset) { hdf5::set_attribute(dataset, "unit", unit); }};
 }
 
-void write_single(SharedFile& file, std::int64_t place, std::span<const double> values, std::vector<float>& buffer) {
+void write_values(SharedFile& file, std::int64_t place, std::span<const double> values, Precision precision,
+                  std::vector<float>& buffer) {
+  if (precision == Precision::full) {
+    file.write(place, std::as_bytes(values));
+    return;
+  }
   buffer.assign(values.begin(), values.end());
   file.write(place, std::as_bytes(std::span(buffer)));
 }
@@ -205,7 +211,11 @@ void GridFields::write(std::int64_t tick, double time_s, std::span<const Values>
   Stretches stretches(series.comm, cells.blocks, cells.mine);
   for (std::size_t f = 0; f < series.fields.size(); ++f) {
     for (std::size_t n = 0; n < mine.size(); ++n) cells.sources[n].values = mine[n].fields[f];
-    stretches.write<float>(file, places.subspan(f * count, count), series.fields[f].components, cells.sources);
+    const Field& field = series.fields[f];
+    if (field.precision == Precision::full)
+      stretches.write<double>(file, places.subspan(f * count, count), field.components, cells.sources);
+    else
+      stretches.write<float>(file, places.subspan(f * count, count), field.components, cells.sources);
   }
   file.commit();
   series.append(time_s, impl_->grid(time_s, name));
@@ -265,10 +275,9 @@ void ParticleFields::write(std::int64_t tick, double time_s, std::span<const std
     file.write(places[2] + before * 8, std::as_bytes(std::span<const std::int64_t>(vertex)));
     std::vector<float> buffer;
     for (std::size_t f = 0; f < fields.size(); ++f) {
-      const int components = series.fields[f].components;
-      require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(components),
-                   series.name + "/" + series.fields[f].name);
-      write_single(file, places[3 + f] + before * components * 4, fields[f], buffer);
+      const Field& field = series.fields[f];
+      require_size(fields[f].size(), ids.size() * static_cast<std::size_t>(field.components), series.name + "/" + field.name);
+      write_values(file, places[3 + f] + before * field.components * int(field.precision), fields[f], field.precision, buffer);
     }
   });
   file.commit();

@@ -1,6 +1,6 @@
 // Fields for ParaView: named values with components on curvilinear multi-block grids and on particles, as time series.
-// One HDF5 file per output (fields/NAME_TICK.h5; positions in double, values in single precision) and one fields/NAME.xdmf to
-// open. Each rank hands in what it owns, of grids boxes of whole blocks. Called by the coupling at output times. Tested in
+// One HDF5 file per output (fields/NAME_TICK.h5; positions in double, values in the precision of their field) and one NAME.xdmf
+// to open. Each rank hands in what it owns, of grids boxes of whole blocks. Called by the coupling at output times. Tested in
 // tests/src/io/fields_test.cpp (read back by h5py). SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,9 +17,13 @@
 
 namespace spindrift::io {
 
+/// Bytes of a stored number.
+enum class Precision : int { single = 4, full = 8 };
+
 struct Field {
   std::string name, unit;
-  int components = 1;  ///< 1 scalar, 3 vector, 6 symmetric tensor (xx xy xz yy yz zz), 9 tensor
+  int components = 1;                       ///< 1 scalar, 3 vector, 6 symmetric tensor (xx xy xz yy yz zz), 9 tensor
+  Precision precision = Precision::single;  ///< full where what counts is a small difference of large numbers
 };
 
 /// Where a series begins: before everything, or after the restart's time.

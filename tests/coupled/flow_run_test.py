@@ -1,6 +1,7 @@
 """The air alone as a user runs it: scenes with grids made by the program, fields and walls for ParaView, the report's pictures.
 Usage: flow_run_test.py SPINDRIFT"""
 import json
+import tomllib
 import unittest
 import xml.etree.ElementTree
 
@@ -45,6 +46,19 @@ class FlowRun(Folder):
                 drag += float((cf * length).sum()) / 2.0
             self.assertEqual(faces, 28)
             self.assertAlmostEqual(drag, self.history()[-1]["flow.drag_coefficient"], delta=1e-6)
+
+    def test_the_pressure_of_slow_air_is_that_of_its_coefficient(self):
+        """A dynamic pressure of 6 mPa upon one bar."""
+        done = spindrift("run", CASES / "naca0012/family.toml", "--out", self.out, "--set", "aero.flow.generate.refinement=1",
+                         "--set", "aero.flow.incidence_deg=5.0", "--set", "wind.speed_m_s=0.1", "--set", "time.end_s=10.0", "--no-report")
+        self.assertIn(done.returncode, (0, 3), done.stdout + done.stderr)
+        scene = tomllib.loads((self.out / "scene.toml").read_text())
+        density = scene["environment"]["air_density_kg_m3"]
+        ambient, q = density * 287.05 * scene["aero"]["flow"]["temperature_K"], 0.5 * density * 0.1**2
+        for wall in field_files.blocks(self.out, "walls").values():
+            expected = wall["pressure_coefficient"]
+            self.assertGreater(numpy.ptp(expected), 0.5)
+            numpy.testing.assert_allclose((wall["pressure"] - ambient) / q, expected, atol=1e-5)
 
     def test_fields_have_the_blocks_of_the_grid_and_values_where_their_points_are(self):
         """Several tiles a block, whose own directions are turned against the block's."""

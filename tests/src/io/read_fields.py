@@ -51,12 +51,13 @@ def check_grid(path, moving, outputs):
             cell = np.arange(np.prod(cells), dtype=float).reshape(cells)
             np.testing.assert_array_equal(values["pressure"], (1000.0 * b + cell + 0.5 * t).astype("f4"))
             np.testing.assert_array_equal(values["velocity"], np.stack([cell + t, 2 * cell, 0 * cell - b], axis=-1).astype("f4"))
+            np.testing.assert_array_equal(values["absolute"], 101325.0 + 1e-9 * cell)
         # A file says all of it without the XDMF, in an array of points and one of each field for a block.
         with h5py.File(path.parent / blocks[0].find("Attribute/DataItem").text.split(":")[0], "r") as file:
             arrays = []
             file.visititems(lambda name, found: arrays.append(name) if isinstance(found, h5py.Dataset) else None)
             own = file.attrs["points_file"] in (file.filename.rpartition("/")[2], file.filename.rpartition("/")[2].encode())
-            expected = {f"{block}/{array}" for block in shapes for array in ("pressure", "velocity", *(["points"] if own else []))}
+            expected = {f"{block}/{array}" for block in shapes for array in ("pressure", "velocity", "absolute", *(["points"] if own else []))}
             assert set(arrays) == expected, arrays
             there = file.attrs["points_file"]
             assert (there.decode() if isinstance(there, bytes) else there) == item.text.split(":")[0]
