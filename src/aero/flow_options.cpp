@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/aero/flow/flow_solver.hpp"
+#include "src/aero/flow/sweep.hpp"
 #include "src/aero/flow/sweep_model.hpp"
 #include "src/scene/cases.hpp"
 #include "src/scene/document.hpp"
@@ -299,11 +300,39 @@ std::vector<std::string> wall_patches(const FlowOptions& options) {
 
 TilingOptions tile_limits(const FlowOptions& options) { return {.max_cells = options.tile_cells}; }
 
+namespace {
+
+/// What makes the lines off the walls of a generated grid as long as they are.
+const char* row_key(const std::string& kind) {
+  if (kind == "box") return "cells";
+  if (kind == "stretched_box") return "cell_m";
+  return kind == "cylinder" ? "outward" : "refinement";
+}
+
+}  // namespace
+
 Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid) {
   TilingOptions tiling = tile_limits(options);
   for (const PatchOptions& b : options.boundaries)
     if (options.viscous != "none" && of(b.condition).surface == Surface::no_slip) tiling.sticky.push_back(b.patch);
-  return make_tiling(grid, wall_patches(options), tiling);
+  Tiling tiles = make_tiling(grid, wall_patches(options), tiling);
+  if (!options.generate) {
+    require_rows(tiles, options.grid, "", "");
+  } else {
+    const std::string key = row_key(options.generate->kind);
+    const GenerateOptions& g = *options.generate;
+    require_rows(tiles, "", "aero.flow.generate." + key, key == "refinement" ? fmt::format("{}", g.refinement) : "");
+  }
+  return tiles;
+}
+
+void require_rows(const Tiling& tiling, const std::string& source, const std::string& key, const std::string& value) {
+  for (const Tile& tile : tiling.tiles)
+    if (tile.ni > longest_row)
+      throw scene::SceneError(
+          {{source, 0, key, value,
+            fmt::format("block {} \"{}\" of the grid has lines of {} cells off its walls, which stay whole: at most {}",
+                        tile.block + 1, tiling.block_names[std::size_t(tile.block)], tile.ni, longest_row)}});
 }
 
 std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const Tiling& tiling) {

@@ -104,7 +104,10 @@ std::vector<PatchCondition> patch_conditions(const FlowOptions& options, const T
 std::vector<std::string> wall_patches(const FlowOptions& options);
 /// How large its tiles may be.
 TilingOptions tile_limits(const FlowOptions& options);
-/// How the grid of this flow is cut into tiles.
+/// How the grid of this flow is cut into tiles. Throws scene::SceneError where lines off a wall have more cells than a sweep
+/// holds.
 Tiling flow_tiling(const FlowOptions& options, const MultiBlockGrid& grid);
+/// Throws scene::SceneError where a tile has longer rows than the sweeps hold; `source` and `key` say what asked for the grid.
+void require_rows(const Tiling& tiling, const std::string& source, const std::string& key, const std::string& value);
 
 }  // namespace spindrift::aero

@@ -233,7 +233,9 @@ Tiling rotor_tiling(const FlowOptions& flow, const MultiBlockGrid& grid, const E
   std::vector<std::string> blades;
   for (const Boundary& b : grid.boundaries)
     if (b.patch.starts_with("blade_")) blades.push_back(b.patch);
-  return make_tiling(grid, blades, tile_limits(flow), edges);
+  Tiling tiling = make_tiling(grid, blades, tile_limits(flow), edges);
+  require_rows(tiling, "", "aero.grid", "");
+  return tiling;
 }
 
 std::shared_ptr<const MadeRotorGrid> made_rotor_grid(const ResolvedRotorSetup& setup, MPI_Comm comm,

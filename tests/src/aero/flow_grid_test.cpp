@@ -126,6 +126,18 @@ TEST_CASE("a grid that is not said, or said twice, or said wrongly is refused wi
   CHECK_THROWS_WITH(read("[aero.flow.generate]\nkind = 'sphere'\n"), Contains("flat_plate"));
 }
 
+TEST_CASE("lines off a wall of more cells than a sweep holds are refused, with the key or the file", "[flow][fast]") {
+  const std::string plate = "[aero.flow.generate]\nkind = 'flat_plate'\nrefinement = ",
+                    wall = "\n[[aero.flow.boundaries]]\npatch = 'wall'\ncondition = 'no_slip'\n";
+  const FlowOptions most = read(plate + "21" + wall), more = read(plate + "22" + wall);
+  CHECK_NOTHROW(flow_tiling(most, flow_grid(most)));
+  CHECK_THROWS_WITH(flow_tiling(more, flow_grid(more)),
+                    Contains("aero.flow.generate.refinement = 22") && Contains("lines of 528 cells") && Contains("at most 512"));
+  FlowOptions file = more;
+  file.grid = "wing.cgns", file.generate.reset();
+  CHECK_THROWS_WITH(flow_tiling(file, flow_grid(more)), Contains("wing.cgns") && Contains("528 cells"));
+}
+
 TEST_CASE("closures are chosen by name, and refused with what is allowed", "[flow][fast]") {
   const std::string grid = "[aero.flow.generate]\nkind = 'cylinder'\n",
                     wall = "[[aero.flow.boundaries]]\npatch = 'wall'\ncondition = 'wall_function'\n";
