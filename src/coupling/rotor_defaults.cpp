@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/rotor_defaults.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -45,7 +47,7 @@ bool blades_alike(const Scenario& s) {
 void add_rotor_defaults(scene::Document& document) {
   std::vector<std::string> defaults;
   try {
-    const Scenario s = look(document);
+    Scenario s = look(document);
     if (!has_resolved_rotor(s) || !s.aero.flow) return;
     const bool carried = document.given("bodies");
     if (carried) defaults.push_back("aero.flow.time=\"bdf2\"");
@@ -53,6 +55,10 @@ void add_rotor_defaults(scene::Document& document) {
     if (steps) defaults.push_back("aero.flow.drop=1e-3");
     defaults.insert(defaults.end(), {"aero.flow.preconditioner=\"coarse\"", "aero.flow.cfl=2.0", "aero.flow.cfl_max=1000.0"});
     defaults.push_back(blades_alike(s) ? "aero.grid.sectors=\"one\"" : "aero.grid.sectors=\"all\"");
+    if (s.aero.grid->y_plus && !document.given("aero.grid.kinematic_viscosity_m2_s")) {
+      s.aero.grid->kinematic_viscosity_m2_s = s.aero.kinematic_viscosity(s.environment.air_density_kg_m3);
+      defaults.push_back(fmt::format("aero.grid.kinematic_viscosity_m2_s={}", s.aero.grid->kinematic_viscosity_m2_s));
+    }
     if (aero::suits_wall_law(resolved_rotor_setup(s))) defaults.push_back("aero.flow.blades=\"wall_function\"");
   } catch (const scene::SceneError&) {  // told where the file is read
   }

@@ -1,6 +1,7 @@
 """What a resolved rotor has by default: a scene with nothing but the turbine, the wind and the operating point is the scene whose figures are in
 docs/verification/rotor.md, alone and on a platform. Usage: rotor_defaults_test.py SPINDRIFT"""
 import json
+import re
 import tomllib
 import unittest
 
@@ -55,6 +56,17 @@ class Defaults(Folder):
                                  (["aero.flow.blades=no_slip", "aero.grid.y_plus=4.0"], "no_slip")):
             with self.subTest(settings=settings):
                 self.assertEqual(self.as_run(ALONE, "time.end_s=1.0", *settings)[1]["blades"], blades)
+
+    def test_first_cells_by_y_plus_are_those_of_the_air_of_the_scene(self):
+        thick = ["time.end_s=1.0", "aero.grid.y_plus=50.0", "aero.flow.viscosity_Pa_s=1.8e-4"]
+        self.assertAlmostEqual(self.as_run(ALONE, *thick)[0]["kinematic_viscosity_m2_s"], 1.8e-4 / 1.225, delta=1e-16)
+        self.assertEqual(self.as_run(ALONE, *thick, "aero.grid.kinematic_viscosity_m2_s=2e-5")[0]["kinematic_viscosity_m2_s"], 2e-5)
+        (self.path / "scene.toml").write_text(ALONE)
+        for viscosity in ("1.8e-5", "1.8e-4"):
+            done = spindrift("check", self.path / "scene.toml", settings=["aero.grid.y_plus=50.0", f"aero.flow.viscosity_Pa_s={viscosity}"])
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            found = re.search(r"by the law of the wall +([0-9.]+) in the middle", done.stdout)
+            self.assertAlmostEqual(float(found[1]), 51.0, delta=2.0, msg=done.stdout)
 
     def test_keys_that_are_given_stay_and_what_depends_on_a_default_goes_with_it(self):
         grid, flow = self.as_run(ALONE, "time.end_s=1.0", "aero.flow.group_cells=4", "aero.flow.cfl=3.0", "aero.grid.cells_layers=9")

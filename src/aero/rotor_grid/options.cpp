@@ -63,8 +63,8 @@ const scene::Section<RotorGridOptions>& rotor_grid_section() {
                   "of the "
                   "scene.",
                   scene::between(0.1, 1000.0))
-          .number("kinematic_viscosity_m2_s", &RotorGridOptions::kinematic_viscosity_m2_s, "m2/s", "Of the air, for y_plus.",
-                  scene::positive())
+          .number("kinematic_viscosity_m2_s", &RotorGridOptions::kinematic_viscosity_m2_s, "m2/s",
+                  "Of the air, for y_plus. Default with [aero.flow]: its viscosity over the air's density.", scene::positive())
           .number("hub_radius_m", &RotorGridOptions::hub_radius_m, "m",
                   "Radius of the slip cylinder that the blades end on; default 0.93 root chords.", scene::positive())
           .number("radial_extent", &RotorGridOptions::radial_extent, "-",
