@@ -2,6 +2,7 @@
 #include "src/aero/grid/wall_distance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -102,19 +103,47 @@ WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string
   return wall_surface(wall_faces(grid, patches), grid.connections);
 }
 
+namespace {
+
+RigidMap inverse(const RigidMap& m) { return {m.rotation.transpose(), -(m.rotation.transpose() * m.translation)}; }
+RigidMap product(const RigidMap& a, const RigidMap& b) {
+  return {a.rotation * b.rotation, a.rotation * b.translation + a.translation};
+}
+bool contains(std::span<const RigidMap> maps, const RigidMap& m, double tolerance) {
+  return std::ranges::any_of(maps, [&](const RigidMap& other) {
+    return (other.rotation - m.rotation).norm() < tolerance &&
+           (other.translation - m.translation).norm() < tolerance * (1 + m.translation.norm());
+  });
+}
+
+/// Steps across the corners where periods meet: products of two or three different maps or their inverses. `maps` hold each map
+/// and its inverse; those of files differ in the digits of single precision, and no more than three are independent.
+std::vector<RigidMap> across_corners(std::span<const RigidMap> maps) {
+  constexpr double same = 1e-5;
+  constexpr std::size_t most = 3;
+  std::vector<RigidMap> independent, steps{RigidMap{}};
+  for (const RigidMap& m : maps)
+    if (independent.size() < most && !contains(independent, m, same) && !contains(independent, inverse(m), same))
+      independent.push_back(m);
+  for (const RigidMap& m : independent)
+    for (std::size_t n = 0, before = steps.size(); n < before; ++n)
+      for (const RigidMap& next : {product(m, steps[n]), product(inverse(m), steps[n])})
+        if (!contains(steps, next, same)) steps.push_back(next);
+  std::erase_if(steps, [&](const RigidMap& m) { return contains(std::array{RigidMap{}}, m, same) || contains(maps, m, same); });
+  return steps;
+}
+
+}  // namespace
+
 WallSurface wall_surface(std::vector<WallSurface::Face> faces, std::span<const Connection> connections) {
   std::vector<RigidMap> images;
   for (const Connection& c : connections) {
     if (!c.periodic) continue;
-    const RigidMap& map = *c.periodic;
-    const RigidMap back{map.rotation.transpose(), -(map.rotation.transpose() * map.translation)};
-    for (const RigidMap& m : {map, back})  // the same map joins many windows
-      if (std::none_of(images.begin(), images.end(), [&](const RigidMap& other) {
-            return (other.rotation - m.rotation).norm() < 1e-9 &&
-                   (other.translation - m.translation).norm() < 1e-9 * (1 + m.translation.norm());
-          }))
-        images.push_back(m);
+    for (const RigidMap& m : {*c.periodic, inverse(*c.periodic)})  // the same map joins many windows
+      if (!contains(images, m, 1e-9)) images.push_back(m);
   }
+  const std::vector<RigidMap> corners = across_corners(images);
+  images.insert(images.end(), corners.begin(), corners.end());
   const std::size_t own = faces.size();
   for (const RigidMap& m : images)
     for (std::size_t f = 0; f < own; ++f) {

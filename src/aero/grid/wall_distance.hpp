@@ -51,7 +51,8 @@ class WallSurface {
 std::vector<WallSurface::Face> wall_faces(const MultiBlockGrid& grid, std::span<const std::string> patches);
 /// The same of the layers that a part counts.
 std::vector<WallSurface::Face> wall_faces(const GridLayers& part, std::span<const std::string> patches);
-/// These faces, and their images through periodic connections (one step each way).
+/// These faces, and their images through periodic connections: one step each way, and across corners where
+/// periods meet.
 WallSurface wall_surface(std::vector<WallSurface::Face> faces, std::span<const Connection> connections);
 WallSurface wall_surface(const MultiBlockGrid& grid, std::span<const std::string> patches);
 

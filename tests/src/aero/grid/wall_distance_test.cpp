@@ -84,6 +84,22 @@ TEST_CASE("round a cylinder the distance converges to the radius outside, and th
   CHECK(errors[1] / errors[2] == Approx(4).epsilon(0.1));
 }
 
+TEST_CASE("where periods meet, the wall beyond the corner counts", "[aero][grid][fast]") {
+  const bool three = GENERATE(false, true);
+  const MultiBlockGrid grid = cartesian_box({.ni = 4, .nj = 4, .nk = 4, .periodic = {true, true, three}});
+  // A quarter by a quarter in one corner of the box.
+  const std::vector<WallSurface::Face> faces{
+      {Vector3d(0, 0, 0), Vector3d(0.25, 0, 0), Vector3d(0.25, 0.25, 0), Vector3d(0, 0.25, 0)}};
+  const WallSurface wall = wall_surface(faces, grid.connections);
+  const auto aside = [](double x) { return std::max(0.0, std::min(x - 0.25, 1.0 - x)); };
+  for (const double x : {0.1, 0.5, 0.6, 0.7, 0.95})
+    for (const double y : {0.1, 0.5, 0.6, 0.8, 0.99})
+      for (const double z : {0.05, 0.4, 0.9}) {
+        const double up = three ? std::min(z, 1.0 - z) : z;
+        REQUIRE(wall.distance({x, y, z}) == Approx(Vector3d(aside(x), aside(y), up).norm()).epsilon(1e-13));
+      }
+}
+
 TEST_CASE("the wall beyond a periodic side counts; without walls the distance is infinite", "[aero][grid][fast]") {
   BoxOptions box{.ni = 10, .nj = 4, .nk = 4, .periodic = {true, false, false}};
   const MultiBlockGrid whole = cartesian_box(box);
