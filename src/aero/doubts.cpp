@@ -63,12 +63,13 @@ void doubt_braking(scene::Doubts& doubts, const RotorOptions& rotor, const WindO
                       "the rotor drives the air; look at its unit, and at the rotor's speed and the wind"});
 }
 
-bool is_wing(const GenerateOptions& grid) { return grid.kind == "naca0012" || grid.kind == "aerofoil"; }
+/// A section, or one drawn out along the span.
+bool is_wing(const GenerateOptions& grid) { return grid.kind == "naca0012" || grid.kind == "aerofoil" || grid.kind == "wing"; }
 
 /// Length that the flow's Reynolds number goes with, where the program makes the grid and knows it; else 0.
 double length_of(const FlowOptions& flow) {
   if (!flow.generate) return 0.0;
-  if (is_wing(*flow.generate) || flow.generate->kind == "wing") return 1.0;  // the chord
+  if (is_wing(*flow.generate)) return 1.0;  // the chord
   return flow.generate->kind == "cylinder" ? 2.0 * flow.generate->radius_m : 0.0;
 }
 
@@ -410,9 +411,10 @@ scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, 
                       "look at its unit: degrees"});
   else
     doubt_stall(doubts, flow);
-  if (const double share = flow.reference_area_m2 / (length * flow.width_m); share < 0.05 || share > 20.0)
-    doubts.push_back({"aero.flow.reference_area_m2", fmt::format("{:.4g} m2", flow.reference_area_m2),
-                      fmt::format("about chord times width, {:.3g} m2", length * flow.width_m), "look at its unit: m2"});
+  const double area = reference_area(flow), width = flow.generate->kind == "wing" ? flow.generate->span_m : planar_width(flow);
+  if (const double share = area / (length * width); share < 0.05 || share > 20.0)
+    doubts.push_back({"aero.flow.reference_area_m2", fmt::format("{:.4g} m2", area),
+                      fmt::format("about chord times width, {:.3g} m2", length * width), "look at its unit: m2"});
   if (flow.motion && flow.motion->oscillates() && std::abs(flow.motion->pitch_amplitude) > 45.0 * radians_per_degree)
     doubts.push_back({"aero.flow.motion.pitch_amplitude_deg",
                       fmt::format("{:.4g} degrees", flow.motion->pitch_amplitude / radians_per_degree), "up to 45 degrees",

@@ -120,6 +120,18 @@ MultiBlockGrid generated(const GenerateOptions& g, double width, bool inviscid) 
                    .width = width});
 }
 
+/// A grid of three dimensions has its own width, also where it is one cell wide.
+void check_width(const FlowOptions& o, const MultiBlockGrid& grid) {
+  if (!o.width_m) return;
+  const Block& first = grid.blocks.front();
+  const double width = grid.planar ? (first.nodes[first.node(1, 0, 0)] - first.nodes[0]).norm() : 0.0;
+  if (grid.planar && std::abs(width - *o.width_m) <= 1e-9 * width) return;
+  throw scene::SceneError({{.key = "aero.flow.width_m",
+                            .value = fmt::format("{}", *o.width_m),
+                            .message = fmt::format("has no effect: {} has three dimensions{}", o.grid,
+                                                   grid.planar ? fmt::format(" and is {:g} m wide", width) : "")}});
+}
+
 bool is_cgns(const std::string& file) { return std::filesystem::path(file).extension() == ".cgns"; }
 
 }  // namespace
@@ -243,13 +255,14 @@ std::optional<Corners> box_corners(const FlowOptions& o) {
 MultiBlockGrid flow_grid(const FlowOptions& o) {
   MultiBlockGrid grid;
   if (o.generate) {
-    grid = generated(*o.generate, o.width_m, o.viscous == "none");
+    grid = generated(*o.generate, planar_width(o), o.viscous == "none");
   } else if (is_cgns(o.grid)) {
-    grid = read_cgns(o.grid, o.width_m);
+    grid = read_cgns(o.grid, planar_width(o));
   } else {
-    grid = read_plot3d(o.grid, o.width_m);
+    grid = read_plot3d(o.grid, planar_width(o));
     read_neutral_map(grid, o.map);
   }
+  if (!o.generate) check_width(o, grid);
   require_sound(grid, o.generate ? "aero.flow.generate" : o.grid);
   grid = join_cuts(std::move(grid), longest_row);
   if (const std::string why = o.coarse_steps.value_or(0) > 0 ? why_not_halved(grid) : std::string(); !why.empty())

@@ -32,6 +32,12 @@ const scene::Section<PatchOptions>& patch_section() {
   return section;
 }
 
+/// The keys that a made grid's width follows from where it is not width_m; nothing else.
+const char* own_width(const GenerateOptions& g) {
+  if (g.kind == "wing") return "span_m";
+  return g.kind.ends_with("box") ? "low_m and high_m" : nullptr;
+}
+
 std::vector<scene::Choice> turbulence_choices() {
   std::vector<scene::Choice> choices = closures().choices();
   choices.insert(choices.begin(), {"none", "laminar"});
@@ -49,7 +55,7 @@ const scene::Section<FlowOptions>& flow_section() {
           .path("map", &FlowOptions::map, "Neutral map file of a Plot3D grid: which sides of its blocks meet, which are patches.")
           .table("generate", &FlowOptions::generate, generate_section(), "A grid made by the program, in place of a file.")
           .table("motion", &FlowOptions::motion, grid_motion_section(), "Walls that turn and heave, in a scene of the air alone.")
-          .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid.", above(0.0).up_to(1e6))
+          .number("width_m", &FlowOptions::width_m, "m", "Width of a two-dimensional grid. Default: 1.", above(0.0).up_to(1e6))
           .tables("boundaries", &FlowOptions::boundaries, patch_section(), "Conditions by patch; each patch of the grid once.")
           .choice("blades", &FlowOptions::blades,
                   scene::cases<FlowOptions, Condition>(conditions(), [](const BoundaryCondition& c) { return sticks(c); }),
@@ -212,7 +218,9 @@ const scene::Section<FlowOptions>& flow_section() {
                   "State at the beginning.")
           .flag("surfaces", &FlowOptions::surfaces, "Whether walls are written to fields/walls.xdmf: pressure, friction, y+.")
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
-          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2", "Area of the coefficients in history.csv.",
+          .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2",
+                  "Area of the coefficients in history.csv. Default: chord times width or span of a section or wing of "
+                  "`generate`; else 1.",
                   above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool transports = o.viscous != "none" && model_sweeps(o.turbulence).equations > 0;
@@ -241,6 +249,9 @@ const scene::Section<FlowOptions>& flow_section() {
               report("common_steps", fmt::format("is {} but common_every {}: later matrices of a step would have set-ups of "
                                                  "their own; set common_every to {}",
                                                  o.common_steps, o.common_every, needed));
+            if (const char* own = o.width_m && o.generate ? own_width(*o.generate) : nullptr)
+              report("width_m",
+                     fmt::format("has no effect: a grid of kind \"{}\" has the width of its {}", o.generate->kind, own));
             const bool cgns = o.grid.ends_with(".cgns");
             if (o.generate && !o.grid.empty()) report("generate", "is given beside a grid file: one of the two");
             if (!o.generate && !o.grid.empty() && !cgns && o.map.empty())
@@ -289,6 +300,14 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
              .refresh_every = o.refresh_every,
              .matrix_free_below = o.matrix_free_below.value_or(s.time_order == 0 ? 1.0 : 1e-2)};
   return s;
+}
+
+double reference_area(const FlowOptions& o) {
+  if (o.reference_area_m2) return *o.reference_area_m2;
+  constexpr double chord = 1.0;
+  if (!o.generate) return 1.0;
+  if (o.generate->kind == "wing") return chord * o.generate->span_m;
+  return o.generate->kind == "naca0012" || o.generate->kind == "aerofoil" ? chord * planar_width(o) : 1.0;
 }
 
 std::vector<std::string> wall_patches(const FlowOptions& options) {

@@ -41,7 +41,7 @@ struct FlowDomain {
   std::string grid, map;  ///< paths: Plot3D or CGNS; neutral map of the former
   std::optional<GenerateOptions> generate;
   std::optional<GridMotionOptions> motion;
-  double width_m = 1.0;  ///< of planar grids
+  std::optional<double> width_m;  ///< of planar grids; unset: 1 m
   std::vector<PatchOptions> boundaries;
   Condition blades = Condition::no_slip;  ///< of a resolved rotor in viscous air, where no boundary names them
   double temperature_K = 288.15;
@@ -88,8 +88,13 @@ struct FlowLinearOptions {
 /// [aero.flow]
 struct FlowOptions : FlowDomain, FlowSchemes, FlowMarchOptions, FlowLinearOptions {
   bool surfaces = true;
-  double reference_area_m2 = 1.0;
+  std::optional<double> reference_area_m2;  ///< unset: reference_area
 };
+
+/// Area of the coefficients [m2]: as given, else chord times width or span of a section or wing that the program makes, else 1.
+double reference_area(const FlowOptions& options);
+/// [m], of a planar grid that the program makes or reads.
+inline double planar_width(const FlowOptions& options) { return options.width_m.value_or(1.0); }
 
 const scene::Section<FlowOptions>& flow_section();
 

@@ -102,7 +102,7 @@ void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetti
     const Eigen::Vector3d f(p.force[0], p.force[1], p.force[2]), along = wind.normalized();
     Eigen::Vector3d across = Eigen::Vector3d::UnitZ() - along.z() * along;
     if (across.norm() > 0.0) across.normalize();
-    const double unit = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed * o.reference_area_m2;
+    const double unit = 0.5 * gas::density(s.gas, s.stream) * s.speed * s.speed * reference_area(o);
     coefficients_->fill(row, {f.dot(across) / unit, f.dot(along) / unit});
   }
   if (!motion_) return;

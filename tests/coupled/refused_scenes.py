@@ -278,6 +278,7 @@ aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="012" : aero.flow.g
 aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="4012" : aero.flow.generate.naca
 aero.flow.generate.kind="aerofoil" & aero.flow.generate.naca="21112" : aero.flow.generate.naca
 aero.flow.generate.kind="wing" & aero.flow.generate.trailing_edge="open" : aero.flow.generate.trailing_edge
+aero.flow.generate.kind="wing" & aero.flow.width_m=2.0 : aero.flow.width_m
 """,
     "validation/stl_buoy/stl_buoy.toml": """
 bodies.buoy.meshes[0].file="nothing.stl"

@@ -5,10 +5,14 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "src/aero/doubts.hpp"
 #include "src/aero/flow/flow_solver.hpp"
 #include "src/aero/flow_options.hpp"
 #include "src/aero/grid/cgns.hpp"
+#include "src/aero/grid/generators/box.hpp"
 #include "src/aero/grid/generators/plane_cases.hpp"
+#include "src/aero/grid/neutral_map.hpp"
+#include "src/aero/grid/plot3d.hpp"
 #include "src/aero/options.hpp"
 #include "src/scene/document.hpp"
 
@@ -136,6 +140,42 @@ TEST_CASE("lines off a wall of more cells than a sweep holds are refused, with t
   FlowOptions file = more;
   file.grid = "wing.cgns", file.generate.reset();
   CHECK_THROWS_WITH(flow_tiling(file, flow_grid(more)), Contains("wing.cgns") && Contains("528 cells"));
+}
+
+TEST_CASE("a width is refused where the grid has one of its own", "[flow][fast]") {
+  const auto with = [](const std::string& kind) { return "width_m = 2.0\n[aero.flow.generate]\nkind = '" + kind + "'\n"; };
+  for (const char* kind : {"flat_plate", "cylinder", "naca0012", "bump"}) CHECK(planar_width(read(with(kind))) == 2.0);
+  for (const char* kind : {"box", "stretched_box", "wing"})
+    CHECK_THROWS_WITH(read(with(kind)), Contains("aero.flow.width_m") && Contains("has no effect") && Contains(kind));
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_width_test.p3dfmt",
+                              map = file.string() + ".nmf";
+  for (const bool planar : {true, false}) {
+    const BoxOptions box{.ni = 4, .nj = 4, .nk = 4};
+    const MultiBlockGrid grid = planar ? planar_box(box) : cartesian_box(box);
+    write_plot3d(grid, file, Plot3dForm::formatted), write_neutral_map(grid, map);
+    const FlowOptions o = read("width_m = 2.0\ngrid = '" + file.string() + "'\nmap = '" + map.string() + "'\n");
+    if (planar)
+      CHECK_NOTHROW(flow_grid(o));
+    else
+      CHECK_THROWS_WITH(flow_grid(o), Contains("aero.flow.width_m = 2") && Contains("three dimensions"));
+  }
+  std::filesystem::remove(file), std::filesystem::remove(map);
+}
+
+TEST_CASE("coefficients are by chord times width or span of what the program makes, where no area is given", "[flow][fast]") {
+  const std::string grid = "[aero.flow.generate]\nkind = ";
+  CHECK(reference_area(read(grid + "'naca0012'\n")) == 1.0);
+  CHECK(reference_area(read("width_m = 0.5\n" + grid + "'aerofoil'\nnaca = '4412'\n")) == 0.5);
+  CHECK(reference_area(read(grid + "'wing'\nspan_m = 30.0\n")) == 30.0);
+  CHECK(reference_area(read("reference_area_m2 = 3.0\n" + grid + "'wing'\nspan_m = 30.0\n")) == 3.0);
+  CHECK(reference_area(read(grid + "'cylinder'\n")) == 1.0);
+  const auto doubted = [&](const std::string& keys) {
+    for (const scene::Doubt& d : flow_doubts(read(keys + grid + "'wing'\nspan_m = 30.0\n"), 50.0, 1.0, 1.225))
+      if (d.key == "aero.flow.reference_area_m2") return true;
+    return false;
+  };
+  CHECK(doubted("reference_area_m2 = 1.0\n"));
+  CHECK_FALSE(doubted(""));
 }
 
 TEST_CASE("closures are chosen by name, and refused with what is allowed", "[flow][fast]") {
