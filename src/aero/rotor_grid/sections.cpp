@@ -24,9 +24,7 @@ struct OwnedCurve {
   PlaneCurve curve;
 };
 
-bool closed(const Aerofoil& a) { return (a.outline.front() - a.outline.back()).norm() < 1e-9; }
-
-/// Where a blend is this near to the closed outline (as a share of the way from its neighbour), its nodes begin to slide.
+/// Where a blend is this near to the root circle (as a share of the way from its neighbour), its nodes begin to slide.
 constexpr double slide_begins = 0.55;
 
 }  // namespace
@@ -40,7 +38,7 @@ std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const Se
 
 Sections::Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing)
     : spacing_(spacing), root_(aerofoils.back()) {
-  closed_root_ = closed(root_);
+  round_root_ = is_round(OwnedCurve(root_.outline).curve);
   const std::size_t n = aerofoils.size(), round = std::size_t(spacing.round);
   for (const Aerofoil& a : aerofoils) {
     thickness_.push_back(a.thickness);
@@ -70,7 +68,7 @@ void Sections::blend(double thickness, double slide, std::span<Eigen::Vector2d> 
   const double w1 = s * s * (3.0 - 2.0 * s), w0 = 1.0 - w1, d0 = h * s * r * r, d1 = -h * s * s * r;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = w0 * nodes_[a][i] + w1 * nodes_[a + 1][i] + d0 * slopes_[a][i] + d1 * slopes_[a + 1][i];
-  if (!closed_root_ || a + 2 != n || slide == 0.0 || s <= slide_begins) return;
+  if (!round_root_ || a + 2 != n || slide == 0.0 || s <= slide_begins) return;
   const double u = (s - slide_begins) / (1.0 - slide_begins), turned = slide * u * u * (3.0 - 2.0 * u);
   const std::vector<Eigen::Vector2d> slid = resample_outline(root_, spacing_, turned / (2.0 * pi));
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += w1 * (slid[i] - nodes_[a + 1][i]);

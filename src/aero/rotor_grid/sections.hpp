@@ -23,9 +23,8 @@ class Sections {
   Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing);
 
   int round() const { return spacing_.round; }
-  /// The section of relative thickness `thickness` (of chord 1). `slide` [rad] turns the nodes of closed outlines (the root
-  /// circle) back against the section, with a weight that grows from 0 where the blend first meets the closed outline's
-  /// neighbour.
+  /// The section of relative thickness `thickness` (of chord 1). `slide` [rad] turns the nodes of a round root (a circle)
+  /// back against the section, with a weight that grows from 0 where the blend first meets the round outline's neighbour.
   void blend(double thickness, double slide, std::span<Eigen::Vector2d> nodes) const;
 
  private:
@@ -33,7 +32,7 @@ class Sections {
   std::vector<std::vector<Eigen::Vector2d>> nodes_;   ///< by aerofoil
   std::vector<std::vector<Eigen::Vector2d>> slopes_;  ///< d node / d thickness
   SectionSpacing spacing_;
-  bool closed_root_ = false;  ///< the thickest outline is closed
+  bool round_root_ = false;  ///< the thickest outline is a circle or like one
   Aerofoil root_;
 };
 
