@@ -51,7 +51,9 @@ class Checker {
     const Index n = block.cells();
     for (int d = 0; d < 3; ++d) {
       const int least = d == 2 && grid_.planar ? 1 : 2;
-      if (n[d] < least) fault("{} has {} cells in {}: at least {} are needed", block_name(grid_, b), n[d], "ijk"[d], least);
+      if (n[d] < least)
+        fault("{} has {} cells in {}: at least {} are needed{}", block_name(grid_, b), n[d], "ijk"[d], least,
+              grid_.planar ? "" : "; give a section as a two-dimensional grid");
       if (d == 2 && grid_.planar && n[d] != 1) fault("{} has {} cells in k: a planar grid has 1", block_name(grid_, b), n[d]);
     }
     if (*std::min_element(n.begin(), n.end()) < 1 || !options_.nodes) return;

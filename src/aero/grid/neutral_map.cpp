@@ -148,7 +148,7 @@ class MapReader {
       w.directions[s] = d;
       w.reversed[s] = first > last;
       if (first > last) std::swap(first, last);
-      if (grid_.planar && d == 2) first = 1, last = 2;  // written as one plane or as two
+      if (grid_.planar && d == 2) first = 1, last = 2, w.reversed[s] = false;  // written as one plane or as two, either way round
       if (first == last) refuse(line.number, fmt::format("{} {}", first, last), "covers no face");
       const int slot = along(w.window.side)[0] == d ? 0 : 1;
       w.window.low[slot] = first - 1;

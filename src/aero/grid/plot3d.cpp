@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,6 +84,67 @@ void add_block(MultiBlockGrid& grid, const std::filesystem::path& file, const In
   }
   grid.planar = dimensions == 2;
   grid.blocks.push_back(std::move(block));
+}
+
+// ---- one cell wide ----
+
+/// A direction of one cell between planes that are alike but for a step along one axis.
+struct Thin {
+  int direction = 0, axis = 0;
+  double step = 0.0;
+};
+
+constexpr double alike = 1e-6;  // steps that differ by less, for their size: files of single precision
+
+std::optional<Thin> thin(const Block& b) {
+  for (int d = 0; d < 3; ++d) {
+    if (b.cells()[d] != 1 || b.cells()[(d + 1) % 3] == 1 || b.cells()[(d + 2) % 3] == 1) continue;
+    const std::size_t across = d == 0 ? b.node(0, 0, 1) : d == 1 ? b.node(0, 1, 0) : b.node(1, 0, 0);
+    const Eigen::Vector3d first = b.nodes[across] - b.nodes[0];
+    for (const int axis : {1, 2}) {
+      const Eigen::Vector3d step = first[axis] * Eigen::Vector3d::Unit(axis);
+      bool same = step.norm() > 0.0;
+      for (int k = 0; k <= (d == 2 ? 0 : b.nk) && same; ++k)
+        for (int j = 0; j <= (d == 1 ? 0 : b.nj) && same; ++j)
+          for (int i = 0; i <= (d == 0 ? 0 : b.ni) && same; ++i) {
+            const Eigen::Vector3d& x = b.nodes[b.node(k, j, i)];
+            same = (b.nodes[b.node(k, j, i) + across] - x - step).norm() <= alike * step.norm();
+          }
+      if (same) return Thin{d, axis, std::abs(first[axis])};
+    }
+  }
+  return {};
+}
+
+/// As the neutral map's reader expects a planar block: the two directions that are left keep their order.
+Block section_of(const Block& b, const Thin& t) {
+  const int u = t.direction == 0 ? 1 : 0, v = t.direction == 2 ? 1 : 2;
+  Block flat{b.name, b.cells()[u], b.cells()[v], 1, {}};
+  for (const double y : {0.0, -t.step})
+    for (int j = 0; j <= flat.nj; ++j)
+      for (int i = 0; i <= flat.ni; ++i) {
+        Index at{};
+        at[u] = i, at[v] = j;
+        const Eigen::Vector3d& x = b.nodes[b.node(at[2], at[1], at[0])];
+        flat.nodes.push_back({x.x(), y, t.axis == 1 ? x.z() : x.y()});
+      }
+  return flat;
+}
+
+/// Planar where all blocks are one cell wide, along one axis; else the grid as it is.
+MultiBlockGrid flattened(MultiBlockGrid grid) {
+  if (grid.planar) return grid;
+  std::vector<Thin> ways;
+  for (const Block& b : grid.blocks) {
+    const std::optional<Thin> way = thin(b);
+    if (!way) return grid;
+    ways.push_back(*way);
+    if (way->axis != ways[0].axis || std::abs(way->step - ways[0].step) > alike * ways[0].step) return grid;
+    ways.back().step = ways[0].step;
+  }
+  for (std::size_t b = 0; b < ways.size(); ++b) grid.blocks[b] = section_of(grid.blocks[b], ways[b]);
+  grid.planar = true;
+  return grid;
 }
 
 // ---- formatted ----
@@ -244,7 +306,7 @@ MultiBlockGrid read_plot3d(const std::filesystem::path& file, double planar_widt
   const auto head = std::string_view(bytes).substr(0, 4096);
   const bool text =
       std::all_of(head.begin(), head.end(), [](unsigned char c) { return (c >= 32 && c < 127) || (c >= 9 && c <= 13); });
-  return text ? formatted(file, bytes, planar_width) : binary(file, bytes, planar_width);
+  return flattened(text ? formatted(file, bytes, planar_width) : binary(file, bytes, planar_width));
 }
 
 void write_plot3d(const MultiBlockGrid& grid, const std::filesystem::path& file, Plot3dForm form) {

@@ -117,6 +117,50 @@ TEST_CASE("the TMR's files are read, closed and sound", "[aero][grid][fast]") {
   check_same_topology(foil, naca0012({.n = 1}));
 }
 
+TEST_CASE(
+    "a section that is kept one cell wide is the planar grid, whichever direction is across and whichever axis it steps along",
+    "[aero][grid][fast]") {
+  const fs::path file = fs::temp_directory_path() / "spindrift_one_cell.p3dfmt",
+                 map = fs::temp_directory_path() / "spindrift_one_cell.nmf";
+  const MultiBlockGrid planar = naca0012({.n = 1, .width = 0.25});
+  const Index axes = GENERATE(Index{1, 2, 3}, Index{3, 1, 2}, Index{1, 3, 2}, Index{2, 3, 1});
+  const bool along_z = GENERATE(false, true), wavy = GENERATE(false, true);
+  CAPTURE(axes[0], axes[1], axes[2], along_z, wavy);
+  MultiBlockGrid wide = planar;
+  wide.planar = false;
+  const Block& b = planar.blocks[0];
+  for (const Side side : {Side::k_min, Side::k_max}) wide.boundaries.push_back({{0, side, {0, 0}, {b.ni, b.nj}}, "symmetry"});
+  if (along_z)
+    for (Vector3d& x : wide.blocks[0].nodes) x = Vector3d(x.x(), x.z(), x.y());
+  if (wavy) wide.blocks[0].nodes[b.node(1, 5, 5)].x() += 1e-3;
+  reorient(wide, 0, axes);
+  write_plot3d(wide, file, Plot3dForm::formatted), write_neutral_map(wide, map);
+  MultiBlockGrid back = read_plot3d(file);
+  read_neutral_map(back, map);
+  if (wavy) {
+    CHECK(!back.planar);
+    CHECK_THAT(grid_faults(back)[0], Contains("two-dimensional"));
+    return;
+  }
+  CHECK(back.planar);
+  CHECK(grid_faults(back).empty());
+  CHECK(back.boundaries.size() == planar.boundaries.size());  // the sides across bound nothing
+  const auto area = [](const MultiBlockGrid& grid) {
+    const Block& block = grid.blocks[0];
+    double sum = 0.0;
+    for (int j = 0; j < block.nj; ++j)
+      for (int i = 0; i < block.ni; ++i) {
+        const Vector3d &p = block.nodes[block.node(0, j, i)], &q = block.nodes[block.node(0, j + 1, i + 1)],
+                       &r = block.nodes[block.node(0, j, i + 1)], &t = block.nodes[block.node(0, j + 1, i)];
+        sum += 0.5 * (q - p).cross(t - r).norm();
+      }
+    return sum;
+  };
+  CHECK(area(back) == Approx(area(planar)).epsilon(1e-12));
+  CHECK((back.blocks[0].nodes[back.blocks[0].node(1, 0, 0)] - back.blocks[0].nodes[0] - Vector3d(0, -0.25, 0)).norm() < 1e-12);
+  fs::remove(file), fs::remove(map);
+}
+
 TEST_CASE("a grid written is the grid read, bit for bit", "[aero][grid][fast]") {
   const bool planar = GENERATE(false, true);
   const auto form = GENERATE(Plot3dForm::formatted, Plot3dForm::binary);
