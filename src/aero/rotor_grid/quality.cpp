@@ -257,13 +257,11 @@ void require_quality(const MultiBlockGrid& grid, const RotorGridQuality& q, cons
     stop(fmt::format("{:.1f} deg off orthogonal, above {:.1f}", g.non_orthogonality.value, limits.non_orthogonality),
          g.non_orthogonality, limits.non_orthogonality);
   if (g.stretch.value > limits.stretch)
-    stop(
-        fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}{}", g.stretch.value, limits.stretch,
-                    grid.blocks[std::size_t(g.stretch.block)].name.starts_with("ring")
-                        ? " (thin trailing edges? close them in the outlines' files, or take more aero.grid.cells_round or fewer "
-                          "aero.grid.cells_trailing_edge)"
-                        : ""),
-        g.stretch, limits.stretch);
+    stop(fmt::format("neighbours' sizes in the ratio {:.1f}, above {:.1f}{}", g.stretch.value, limits.stretch,
+                     grid.blocks[std::size_t(g.stretch.block)].name.starts_with("ring")
+                         ? " (take more aero.grid.cells_round or fewer aero.grid.cells_trailing_edge)"
+                         : ""),
+         g.stretch, limits.stretch);
   if (q.interface_gap > limits.interface_gap * q.reach)
     throw NumericalFailure(fmt::format("grid refused: nodes that should be one are {:.2g} m apart", q.interface_gap),
                            "interfaces", 0, 0.0, limits.interface_gap * q.reach);

@@ -27,10 +27,28 @@ struct OwnedCurve {
 /// Where a blend is this near to the root circle (as a share of the way from its neighbour), its nodes begin to slide.
 constexpr double slide_begins = 0.55;
 
+/// With a trailing edge of this thickness at least: what is missing grows with the cube of the way from the nose. Along the upper
+/// side first, over the chord.
+void open_edge(std::span<Eigen::Vector2d> outline, double least) {
+  const Eigen::Vector2d gap = outline.front() - outline.back();
+  const double thickness = gap.norm();
+  if (thickness >= least) return;
+  const Eigen::Vector2d up = thickness > 1e-9 ? Eigen::Vector2d(gap / thickness) : Eigen::Vector2d(Eigen::Vector2d::UnitY());
+  const auto nose = std::ranges::min_element(outline, {}, [](const Eigen::Vector2d& p) { return p.x(); });
+  for (auto p = outline.begin(); p != outline.end(); ++p)
+    *p += (p < nose ? 0.5 : -0.5) * (least - thickness) * std::pow(p->x(), 3) * up;
+}
+
+/// Share of the cells beside a trailing edge that those on it have at least: sharp edges have no cells, and thin ones cells that
+/// are too small for their neighbours. With finer cells the edge comes to be that of the outline.
+constexpr double least_edge_cell = 0.1;
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const SectionSpacing& spacing, double slide) {
-  const OwnedCurve owned(aerofoil.outline);
+  std::vector<Eigen::Vector2d> outline = aerofoil.outline;
+  if (!is_round(OwnedCurve(outline).curve)) open_edge(outline, least_edge_cell * spacing.edge * spacing.trailing_edge);
+  const OwnedCurve owned(outline);
   std::vector<Eigen::Vector2d> nodes(std::size_t(spacing.round));
   resample(owned.curve, spacing, slide, nodes);
   return nodes;

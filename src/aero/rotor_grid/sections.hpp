@@ -14,7 +14,8 @@
 
 namespace spindrift::aero {
 
-/// Nodes of one outline, spacing as in `resample`. Chord 1 from the leading edge at (0, 0) to the trailing edge at (1, 0).
+/// Nodes of one outline, spacing as in `resample`. Chord 1 from the leading edge at (0, 0) to the trailing edge at (1, 0). An
+/// edge that is too thin for the cells on it, or sharp, is opened to a tenth of the cells beside it for each.
 std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const SectionSpacing& spacing, double slide = 0.0);
 
 class Sections {

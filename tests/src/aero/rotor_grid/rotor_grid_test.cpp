@@ -73,6 +73,7 @@ TEST_CASE("by default the far sides stand at ten to twelve tip radii, on few cel
   CHECK(upstream == Approx(10.0 * tip).epsilon(0.005));
   CHECK(downstream == Approx(12.0 * tip).epsilon(0.005));
 }
+
 namespace {
 /// The turbine with the trailing edges of its aerofoils up to 40 % thick drawn together to this share of their gap.
 Turbine with_thinner_edges(double share) {
@@ -91,32 +92,26 @@ Turbine with_thinner_edges(double share) {
 }
 }  // namespace
 
-TEST_CASE("blades of sharp aerofoils have cells at their trailing edge as small as those of blunt ones have beside it",
-          "[rotor_grid][fast]") {
-  const Turbine sharp = with_thinner_edges(0.0);
+TEST_CASE("thin and sharp trailing edges are opened to what their cells can be", "[rotor_grid][fast]") {
+  const double share = GENERATE(0.0, 0.1);
+  const Turbine turbine = with_thinner_edges(share);
+  double before = 1.0;
   for (const double n : {1.0, 2.0}) {
     const RotorGridSpec spec = spec_of(n, 1e-3 / n);
-    const MultiBlockGrid grid = make_rotor_grid(sharp, spec), blunt = make_rotor_grid(dtu(), spec);
+    const MultiBlockGrid grid = make_rotor_grid(turbine, spec);
     const RotorGridQuality q = rotor_grid_quality(grid, blade_walls());
     INFO(describe_quality(grid, q));
-    CHECK(grid_faults(grid).empty());
-    CHECK(q.folded == 0);
-    CHECK(q.general.stretch.value < 8.0);
-    CHECK(q.general.scaled_jacobian.value > 0.015);  // the sine of half the angle of the sharpest edge
-    const auto length = [&](const MultiBlockGrid& g, int j) {
-      const Block& ring = g.blocks[0];
-      const int k = ring.nk / 3;  // a section of 25 to 36 %
-      return (ring.nodes[ring.node(k, j + 1, 0)] - ring.nodes[ring.node(k, j, 0)]).norm();
-    };
-    for (int j = 0; j < spec.sizes.edge; ++j) CHECK(length(grid, j) == Approx(length(blunt, spec.sizes.edge)).epsilon(0.5));
+    CHECK_NOTHROW(require_quality(grid, q));
+    CHECK(q.general.stretch.value < 14.0);
+    CHECK(q.general.scaled_jacobian.value > 0.2);
+    const Block& ring = grid.blocks[0];
+    const int k = ring.nk / 3;  // a section of 25 to 36 %
+    const auto length = [&](int j) { return (ring.nodes[ring.node(k, j + 1, 0)] - ring.nodes[ring.node(k, j, 0)]).norm(); };
+    const double edge = length(0), beside = length(spec.sizes.edge);
+    CHECK(edge > 0.06 * beside);
+    CHECK(edge < 0.5 * before);  // finer cells come nearer to the outline
+    before = edge;
   }
-}
-
-TEST_CASE("edges too thin for the cells beside them are refused with what helps", "[rotor_grid][fast]") {
-  const MultiBlockGrid grid = make_rotor_grid(with_thinner_edges(0.1), spec_of(1.0, 1e-3));
-  CHECK_THROWS_WITH(require_quality(grid, rotor_grid_quality(grid, blade_walls())), Catch::Contains("ring_1") &&
-                                                                                        Catch::Contains("thin trailing edges") &&
-                                                                                        Catch::Contains("aero.grid.cells_round"));
 }
 
 TEST_CASE("rotor grids of 255 k cells are as good as stated, for wall functions and for y+ of 1", "[rotor_grid][fast]") {
