@@ -175,10 +175,14 @@ def is_displacement(name):
     return name.endswith((".x_m", ".y_m", ".z_m", ".elevation_m", ".roll_deg", ".pitch_deg", ".yaw_deg"))
 
 
+MOST_KEY_BODIES = 4
+
+
 def key_columns(names):
-    """Columns of the key figures: motions of the first body, coefficients of a flow, rotor loads, tensions, gauges."""
+    """Columns of the key figures: motions of the first body (where no rotor makes it the one that counts, of the first few), coefficients of a flow, rotor loads,
+    tensions, gauges."""
     bodies = bodies_of(names)
-    chosen = [c for b in bodies[:1] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
+    chosen = [c for b in bodies[:1 if rotors_of(names) else MOST_KEY_BODIES] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
     wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", ".asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
               ".elevation_m", ".pressure_Pa", "sea.lost_particles")
     sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved

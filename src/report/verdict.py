@@ -6,6 +6,7 @@ import numpy as np
 
 import decay
 import quantities
+import told_bodies
 import words
 from geometry import Scene3d
 
@@ -127,11 +128,18 @@ def _walls(run):
     return "flow.lift_coefficient" in run.columns or "flow.drag_coefficient" in run.columns
 
 
-def _carrier(run):
-    """The first body that no rotor turns with, None where there is no other: angles of one that spins say nothing."""
-    joints, rotors = run.scene.get("joints") or {}, run.scene.get("rotors") or {"": run.scene.get("rotor") or {}}
-    spinning = {(joints.get(rotor.get("joint")) or {}).get("bodies", ["", ""])[-1] for rotor in rotors.values() if isinstance(rotor, dict)}
-    return next((body for body in quantities.bodies_of(run.columns) if body not in spinning), None)
+MOST_BODIES = 3   # of the headline's figures
+
+
+def _of(body, several):
+    """' of heavy', where there are others that it could be taken for."""
+    return f" of {body}" if several else ""
+
+
+def _launched(run):
+    """Bodies that begin with a speed."""
+    given = run.scene.get("bodies") or {}
+    return [body for body in quantities.bodies_of(run.columns) if any((given.get(body) or {}).get("velocity_m_s") or [])]
 
 
 def answers(run):
@@ -156,19 +164,22 @@ def answers(run):
             said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
+    bodies, of_headline = told_bodies.told(run)
+    several = len(bodies) > 1
     if sort == "bodies" and is_impact(run):
-        body = quantities.bodies_of(run.columns)[0]
-        add("heave, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
-        add("largest load of the water, up", f"{body}.sea.fz_N", greatest)
+        for body in _launched(run)[:MOST_BODIES]:
+            add(f"heave{_of(body, several)}, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
+            add(f"largest load of the water{_of(body, several)}, up", f"{body}.sea.fz_N", greatest)
     elif sort in ("floating turbine", "bodies"):
-        body, swings = _carrier(run), decay.decays(run)
+        swings = decay.decays(run)
         for d in swings[:2]:   # what a decay test is made for
-            motion = quantities.AXES[quantities.quantity_of(d.column)]
+            motion = quantities.AXES[quantities.quantity_of(d.column)] + _of(d.column.rpartition(".")[0], several)
             said.append((f"{motion}, period", words.number(d.period), "s"))
             if d.damping > 0.0:
                 said.append((f"{motion}, damping of critical", words.number(100.0 * d.damping, 3), "%"))
-        for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")) if not swings else ():
-            add(text, f"{body}.{quantity}")
+        for body in of_headline[:MOST_BODIES] if not swings else ():
+            for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")):
+                add(text + _of(body, several), f"{body}.{quantity}")
     for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient"), *_of_rotors(run, ("electrical power", "electrical_power_W"))):
         add(text, name)
@@ -302,6 +313,9 @@ def _draft(run):
                  f"{100 * abs(off) / draft:.0f} % of the draft: finer particles bring it nearer")
 
 
+RESTS = 0.05   # of a body's weight: contact that is more than a touch
+
+
 def _places(run):
     """Bodies that turn over, go under, or pass through a bed that nothing in the sea holds up (particles have one)."""
     sea, found = _value(run.scene, "sea", "model"), []
@@ -335,12 +349,28 @@ def _places(run):
             settled = passed & (at >= run.time[run.mean_range()[0]][0])
             found.append(Check("bad" if settled.any() else "warn", "Bed", f"{body} lies on the bed, first at t = {words.number(at[int(passed.argmax())])} s: where no "
                                "particle fits nothing carries it" + ("" if settled.any() else "; not within the stretch of the means")))
+        elif sea == "sph" and (rests := _rests_on_bed(run, body, low, rows)) is not None:
+            found.append(Check("warn", "Bed", f"{body} lies on the bed, first at t = {words.number(at[rests])} s: contact carries it, and its water load holds no buoyancy, as no water is under it"))
         if sea != "sph" and passed.any():
             settled = passed & (at >= run.time[run.mean_range()[0]][0])
             found.append(Check("bad" if settled.any() else "warn", "Bed", f"{body} reaches {words.number(float(-depth - low.min()), 3)} m under the bed, first at t = "
                                f"{words.number(at[int(passed.argmax())])} s: nothing in this sea holds it up there"
                                + ("" if settled.any() else "; not within the stretch of the means")))
     return found
+
+
+def _rests_on_bed(run, body, low, rows):
+    """Index in `rows` where a body of a sea of particles first rests on the bed, None where contact does not carry it there for most of the stretch of the means."""
+    contact, mass = f"{body}.contact.fz_N", _value(run.scene, "bodies", body, "mass_kg")
+    if contact not in run.columns or not isinstance(mass, (int, float)):
+        return None
+    depth, spacing = _value(run.scene, "environment", "water_depth_m") or math.inf, _value(run.scene, "sea", "particles", "spacing_m") or 0.0
+    slope = _value(run.scene, "sea", "tank", "bed_m") or []
+    x = (_value(run.scene, "bodies", body, "centre_m") or [0.0])[0] + (run.column(f"{body}.x_m")[rows] if f"{body}.x_m" in run.columns else 0.0)
+    bed = np.interp(x, *zip(*slope)) if slope else -depth
+    rests = (run.column(contact)[rows] > RESTS * mass * (_value(run.scene, "environment", "gravity_m_s2") or 9.81)) & (low < bed + spacing)
+    judged = run.mean_range()[0][rows]
+    return int(rests.argmax()) if judged.any() and rests[judged].mean() > 0.5 else None
 
 
 def _has_a_top(body, points):
@@ -607,10 +637,28 @@ def _marched(run):
     return Check("good", "Settled", f"loads changed by less than {100 * STILL:g} % over the last {back} pseudo-steps")
 
 
-def _is_towed(run):
-    """A joint to the earth gives the bodies a motion, which need not come to rest."""
-    joints = run.scene.get("joints") or {}
-    return any("earth" in (j.get("bodies") or []) and decay.is_driven(j) for j in joints.values() if isinstance(j, dict))
+def _moving_bodies(run, between, chosen):
+    """In words: motions of bodies whose means differ between the halves of their stretch."""
+    random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
+    bodies, scene, moving = told_bodies.told(run)[0], Scene3d(run), []
+    for body in [b for b in bodies if b not in told_bodies.towed(run)]:
+        shaped = scene.corners(body) if body in scene.bodies else []
+        height = float(np.ptp(shaped[:, 2])) if len(shaped) else math.inf
+        for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
+            if name not in run.columns:
+                continue
+            values = run.column(name)
+            change = between(values)
+            # How far a body is from where it is described says little of how far it still goes to and fro.
+            share = 0.02 if text == "surge" else 0.1
+            allowed = max(least, share * abs(words.mean(run.time[chosen], values[chosen])))
+            if text == "heave":   # of a small body a small way is much
+                allowed = min(allowed, 0.05 * height)
+            if random:   # halves of a random motion differ by chance, as those of a load
+                allowed = max(allowed, 0.2 * words.deviation(run.time[chosen], values[chosen]))
+            if abs(change) > allowed:
+                moving.append(f"{text}{_of(body, len(bodies) > 1)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}")
+    return moving
 
 
 def _settled(run):
@@ -620,7 +668,7 @@ def _settled(run):
     chosen = np.flatnonzero(run.mean_range()[0])
     if len(chosen) < 10:
         return None
-    body, moving = _carrier(run), []
+    moving = []
     first, second = np.array_split(chosen, 2)
     if is_impact(run):
         return Check("good", "Settled", "an impact: its way and its loads count, no mean does")
@@ -642,23 +690,7 @@ def _settled(run):
             # A swinging load has halves whose means differ by chance: a fifth of its swing is none.
             if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name)):
                 moving.append(f"{text} by {words.number(100.0 * change / max(size, 1e-300), 2)} %")
-    random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
-    for text, name, least in () if _is_towed(run) else (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
-        if name in run.columns:
-            values = run.column(name)
-            change = between(values)
-            shaped = Scene3d(run).corners(body) if body in (run.scene.get("bodies") or {}) else []
-            height = float(np.ptp(shaped[:, 2])) if len(shaped) else math.inf
-            # How far a body is from where it is described says little of how far it still goes to and fro.
-            share = 0.02 if text == "surge" else 0.1
-            allowed = max(least, share * abs(words.mean(run.time[chosen], values[chosen])))
-            if text == "heave":   # of a small body a small way is much
-                allowed = min(allowed, 0.05 * height)
-            if random:   # halves of a random motion differ by chance, as those of a load
-                allowed = max(allowed, 0.2 * words.deviation(run.time[chosen], values[chosen]))
-            if abs(change) > allowed:
-                unit = quantities.unit_of(name, run.described)
-                moving.append(f"{text} by {words.number(change, 2)} {unit}")
+    moving += _moving_bodies(run, between, chosen)
     asked = _value(run.scene, "output", "means_over_s")
     if isinstance(asked, (int, float)) and run.time[-1] - run.time[0] < 1.2 * asked and not moving and kind(run) == "floating turbine":
         return Check("warn", "Settled", f"not known: the run is hardly longer than the stretch of its means (output.means_over_s = {words.number(asked)}), which begins with the start")
@@ -681,15 +713,16 @@ def waves_in_means(run):
 
 def _whole_waves(run):
     """A mean over a part of a wave holds a part of its swing."""
-    count, names = waves_in_means(run), quantities.bodies_of(run.columns)[:1]
-    if not math.isfinite(count) or not names:
+    count, bodies = waves_in_means(run), told_bodies.told(run)[0]
+    if not math.isfinite(count) or not bodies:
         return None
     period, whole = run.scene["waves"]["period_s"], int(count + 1e-6)
     if whole == 0:
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
     chosen, off = run.mean_range()[0], []
     tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
-    for text, name, least in (("surge", f"{names[0]}.x_m", 0.02), ("heave", f"{names[0]}.z_m", 0.02), ("pitch", f"{names[0]}.pitch_deg", 0.05),
+    motions = (("surge", "x_m", 0.02), ("heave", "z_m", 0.02), ("pitch", "pitch_deg", 0.05))
+    for text, name, least in (*((text + _of(body, len(bodies) > 1), f"{body}.{quantity}", least) for body in bodies for text, quantity, least in motions),
                               *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
             values = run.column(name)

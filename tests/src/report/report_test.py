@@ -606,6 +606,52 @@ class PartsTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.hub]\nmass_kg = 1.0\n" + bearing + rotor, log="")
                 self.assertEqual([words for words, _, _ in verdict.answers(RunData(pathlib.Path(folder)))], said)
 
+    def test_of_several_bodies_each_is_named_and_judged(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t} | {f"{body}.x_m": 0 * t for body in ("heavy", "neutral", "light")}
+        table |= {"heavy.z_m": -0.4 + 0 * t, "neutral.z_m": 0.002 * t, "light.z_m": 0.45 + 0 * t, "light.pitch_deg": -0.1 * t}
+        box = "[bodies.{0}]\nmass_kg = 1.0\n[[bodies.{0}.boxes]]\nsize_m = [0.3, 1.0, 0.2]\ncentre_m = [0.0, 0.0, 0.0]\n"
+        scene = "[sea]\nmodel = 'sph'\n" + "".join(box.format(name) for name in ("heavy", "neutral", "light"))
+        with tempfile.TemporaryDirectory() as folder:
+            def made(more="", **columns):
+                synthetic_run.write(pathlib.Path(folder), table=table | columns, scene=scene + more, log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
+                run = RunData(pathlib.Path(folder))
+                return run, [text for text, _, _ in verdict.answers(run)], {c.title: c for c in verdict.health(run)}["Settled"]
+
+            run, said, settled = made()
+            self.assertEqual(said, ["heave of heavy", "heave of neutral", "heave of light", "pitch of light"])
+            self.assertEqual(settled.level, "warn")
+            self.assertIn("heave of neutral by 0.020 m, pitch of light by −1.0 deg changed", settled.text)
+            self.assertEqual(made(**{"neutral.z_m": 0.1 + 0 * t, "light.pitch_deg": 0 * t})[2].level, "good")
+            self.assertIn("light.z_m", quantities.key_columns(run.columns))
+            # What stands for others: of bodies fixed to each other the first, of bodies that a driver moves none.
+            _, said, settled = made("[joints.weld]\ntype = 'fixed'\nbodies = ['heavy', 'neutral']\n")
+            self.assertEqual(said, ["heave of heavy", "heave of light", "pitch of light"])
+            self.assertNotIn("neutral", settled.text)
+            _, _, settled = made("[joints.arm]\nbodies = ['earth', 'light']\n[joints.arm.rotation]\nspeed_rad_s = 1.0\n")
+            self.assertIn("heave of neutral by 0.020 m changed", settled.text)
+            # Where a rotor is carried its carrier stands in the headline; the others are judged.
+            turbine = "[rotor]\njoint = 'bearing'\n[joints.bearing]\nbodies = ['heavy', 'light']\n"
+            _, said, settled = made(turbine, **{"rotor.thrust_N": 1e6 + 0 * t})
+            self.assertEqual(said, ["heave of heavy", "thrust"])
+            self.assertIn("heave of neutral by 0.020 m changed", settled.text)
+            _, said, settled = made(turbine + "[joints.hinge]\nbodies = ['heavy', 'neutral']\n", **{"rotor.thrust_N": 1e6 + 0 * t})
+            self.assertEqual((said, settled.level), (["heave", "thrust"], "good"))
+
+    def test_a_body_that_contact_carries_on_the_bed_is_told(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, "stone.x_m": 0 * t, "stone.z_m": -0.4 * (t > 10.0), "stone.sea.fz_N": 0 * t, "stone.contact.fz_N": 1100.0 * (t > 10.0)}
+        scene = ("[environment]\nwater_depth_m = {}\n[sea]\nmodel = 'sph'\n[sea.particles]\nspacing_m = 0.02\n[sea.tank]\nbed_m = {}\n[bodies.stone]\nmass_kg = 120.0\n"
+                 "[[bodies.stone.boxes]]\nsize_m = [0.3, 1.0, 0.2]\ncentre_m = [0.0, 0.0, -0.5]\n")
+        for depth, bed, force, lies in ((1.0, [], 1.0, True), (1.0, [], 0.0, False), (2.0, [], 1.0, False), (2.0, [[-1.0, -1.5], [1.0, -0.5]], 1.0, True)):
+            with self.subTest(depth=depth, bed=bed, force=force), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table | {"stone.contact.fz_N": force * table["stone.contact.fz_N"]}, scene=scene.format(depth, bed), log="")
+                found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}.get("Bed")
+                self.assertEqual(found is not None, lies)
+                if lies:
+                    self.assertEqual((found.level, found.text[:48]), ("warn", "stone lies on the bed, first at t = 10.10 s: con"))
+                    self.assertIn("its water load holds no buoyancy", found.text)
+
     def test_halves_of_a_random_motion_differ_by_chance(self):
         t = 0.1 * np.arange(6001)
         table = {"time_s": t, "float.x_m": 2.0 * np.sin(2 * np.pi * t / 11.0) + 0.1 * np.sign(t - 350.0)}
