@@ -10,12 +10,13 @@ import decay
 import figures
 import flow_pictures
 import html_page
+import impact
 import quantities
 import rotor_pictures
 import sea_pictures
 import verdict
 from html_page import escape, parts, safe, section
-from words import LEVEL, deviation, duration, mean, number
+from words import LEVEL, deviation, duration, mean, number, short
 
 # {key: (heading, folded)}
 GROUPS = {"motion": ("Motions", False), "forces": ("Forces by source", False), "moments": ("Moments by source", False),
@@ -125,11 +126,16 @@ def model(run):
     for line in _tables(scene, "moorings").values():
         lines.setdefault(str(line.get("model", "line")).replace("_", " "), []).append(line)
     say("Moorings", *(f"{len(found)} × {kind}" for kind, found in lines.items()))
-    say("Water", _value(scene, "sea", "model"), unit("environment", "water_depth_m", "depth ", "m"))
-    say("Waves", _value(scene, "waves", "model"), unit("waves", "height_m", "height ", "m"), unit("waves", "period_s", "period ", "s"))
+    if wet := _value(scene, "sea", "model") not in (None, "none"):
+        say("Water", _value(scene, "sea", "model"), unit("environment", "water_depth_m", "depth ", "m"))
+    if wet or _value(scene, "waves", "model") not in (None, "none"):
+        say("Waves", _value(scene, "waves", "model"), unit("waves", "height_m", "height ", "m"), unit("waves", "period_s", "period ", "s"))
     say("Rotor and air", str(_value(scene, "aero", "model") or "").replace("_", " "), unit("aero", "thrust_N", "thrust ", "N"),
         unit("wind", "speed_m_s", "wind ", "m/s"))
-    say("Time", unit("time", "end_s", "to ", "s"), unit("time", "window_s", "windows of ", "s"), _value(scene, "time", "integrator"))
+    if verdict.is_steady(run):
+        say("Time", unit("time", "end_s", "to ", "pseudo-steps"))
+    else:
+        say("Time", unit("time", "end_s", "to ", "s"), unit("time", "window_s", "windows of ", "s"), _value(scene, "time", "integrator") if bodies else "")
     say("Coupling", _value(scene, "coupling", "scheme"))
     return "<dl class=\"model\">" + "".join(f"<div><dt>{escape(t)}</dt><dd>{escape(d)}</dd></div>" for t, d in items) + "</dl>" if items else ""
 
@@ -213,7 +219,23 @@ _LEFT_OUT = (".x_m", ".y_m", ".z_m", ".roll_deg", ".pitch_deg", ".yaw_deg", ".to
 
 def _still(run, name):
     """A motion or load that there is none of: of a turbine on land, of a prescribed thrust."""
-    return name.endswith(_LEFT_OUT) and not (abs(run.column(name)) > run.round_off(name)).any()
+    of_sensor = name.rpartition(".")[0] in quantities.sensors_of(run.columns)
+    return (of_sensor or name.endswith(_LEFT_OUT)) and not (abs(run.column(name)) > run.round_off(name)).any()
+
+
+def _impact_rows(run):
+    """Loads of bodies that meet the water with a speed, without the sound in them."""
+    rows = []
+    for body in impact.launched(run) if verdict.is_impact(run) else ():
+        load = impact.of_body(run, body)
+        if not load or not load[1]:
+            continue
+        name, over, at, values = load
+        chosen = at >= run.time[run.mean_range()[0]][0]
+        unit, factor = quantities.scaled("N", np.abs(values).max(initial=0.0))
+        said = [values[-1], mean(at[chosen], values[chosen]), deviation(at[chosen], values[chosen]), values.min(), values.max()]
+        rows.append([safe(f'<span title="{escape(name)}, means over {short(over)}">{escape(body)} load up, mean of {short(over)}</span>'), unit] + [number(factor * float(v)) for v in said])
+    return rows
 
 
 def key_figures(run):
@@ -221,13 +243,13 @@ def key_figures(run):
     if not len(run.time) or not names:
         return ""
 
-    def table(chosen):
+    def table(chosen, more=()):
         rows, span = _key_rows(run, chosen)
         return parts.table(["Quantity", "Unit", "Final", f"Mean, {span}", "Standard deviation", "Least", "Greatest"],
-                           [[_spoken(run, n), u] + [number(v) for v in values] for n, u, values in rows])
+                           [[_spoken(run, n), u] + [number(v) for v in values] for n, u, values in rows] + list(more))
 
     rest = [n for n in run.columns[1:] if n not in names]
-    return table(names) + (safe(f"<details><summary>All {len(run.columns) - 1} columns</summary>{table(rest)}</details>") if rest else "")
+    return table(names, _impact_rows(run)) + (safe(f"<details><summary>All {len(run.columns) - 1} columns</summary>{table(rest)}</details>") if rest else "")
 
 
 def expected(run):
@@ -286,6 +308,17 @@ def _figure(title, legend, figure, caption):
     return str(parts.figure(title, legend, safe(figures.as_html(figure, escape(title))), caption))
 
 
+def _about_sound(run, group):
+    """Of loads of an impact: what their swing is, and what is left of it in means."""
+    for body in impact.launched(run) if group.key == "forces" and verdict.is_impact(run) else ():
+        load = impact.of_body(run, body)
+        if load and load[0] in group.columns() and load[1]:
+            unit, factor = quantities.scaled("N", float(load[3].max()))
+            return (f"A row of {load[0]} is the load of one substep, with the sound waves in the water; its largest mean over {short(load[1])}, in which sound goes through the "
+                    f"body and back, is {number(factor * float(load[3].max()))} {unit}.")
+    return ""
+
+
 def _caption(group, drawing, runs):
     said = [group.caption]
     if drawing.legend and len(runs) > 1:
@@ -294,7 +327,8 @@ def _caption(group, drawing, runs):
         said.append(f"Constant: {', '.join(drawing.constant)}.")
     if drawing.zero:
         said.append(f"Zero throughout: {', '.join(drawing.zero)}.")
-    return " ".join(said).strip()
+    said += [_about_sound(run, group) for run in runs]
+    return " ".join(filter(None, said)).strip()
 
 
 def _run_legend(runs, group=None):

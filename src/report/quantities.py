@@ -158,6 +158,8 @@ def groups(names, joints=None):
     probes = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".pressure_Pa")))
     for probe in probes:
         add("sea", f"{probe}: probe", "Pressure and velocity of the water at a point.", _triple(names, probe, ("pressure", "vx", "vy", "vz")))
+    for sensor in sensors_of(names):
+        add("sea", f"{sensor}: sensor", "Pressure and force of the water on a patch, means over its own time.", _triple(names, sensor, ("mean_pressure", "fx", "fy", "fz"), {"mean_pressure": "pressure"}))
     add("sea", "wavemaker", "Displacement and velocity of the paddle at still water.", _triple(names, "wavemaker", ("displacement", "velocity")))
 
     used = {"time_s"} | {column for group in found for column in group.columns()}
@@ -175,12 +177,16 @@ def is_displacement(name):
     return name.endswith((".x_m", ".y_m", ".z_m", ".elevation_m", ".roll_deg", ".pitch_deg", ".yaw_deg"))
 
 
+def sensors_of(names):
+    return [n.rpartition(".")[0] for n in names if n.endswith(".mean_pressure_Pa")]
+
+
 MOST_KEY_BODIES = 4
 
 
 def key_columns(names):
     """Columns of the key figures: motions of the first body (where no rotor makes it the one that counts, of the first few), coefficients of a flow, rotor loads,
-    tensions, gauges."""
+    tensions, gauges, probes, sensors."""
     bodies = bodies_of(names)
     chosen = [c for b in bodies[:1 if rotors_of(names) else MOST_KEY_BODIES] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
     wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", ".asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
@@ -188,4 +194,5 @@ def key_columns(names):
     sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved
     farthest = set() if bodies or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam
     wanted += tuple(farthest)
+    wanted += tuple(f"{sensor}.{quantity}" for sensor in sensors_of(names) for quantity in ("mean_pressure_Pa", "fx_N", "fy_N", "fz_N"))
     return chosen + [n for n in names if n.endswith(wanted) and not re.search(r"\.blade_\d+\.", n) and n not in sector]

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 import decay
+import impact
 import quantities
 import told_bodies
 import words
@@ -136,12 +137,6 @@ def _of(body, several):
     return f" of {body}" if several else ""
 
 
-def _launched(run):
-    """Bodies that begin with a speed."""
-    given = run.scene.get("bodies") or {}
-    return [body for body in quantities.bodies_of(run.columns) if any((given.get(body) or {}).get("velocity_m_s") or [])]
-
-
 def answers(run):
     """[(words, value, unit)]: the few figures that this kind of scene is run for; means over the summary's range, of a steady state those of its end.
     Where a figure swings its standard deviation stands behind it."""
@@ -167,9 +162,12 @@ def answers(run):
     bodies, of_headline = told_bodies.told(run)
     several = len(bodies) > 1
     if sort == "bodies" and is_impact(run):
-        for body in _launched(run)[:MOST_BODIES]:
+        for body in impact.launched(run)[:MOST_BODIES]:
             add(f"heave{_of(body, several)}, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
-            add(f"largest load of the water{_of(body, several)}, up", f"{body}.sea.fz_N", greatest)
+            if load := impact.of_body(run, body):
+                name, over, _, means = load
+                span = f"mean over {words.short(over)}" if over else "of one row"
+                add(f"largest load of the water{_of(body, several)}, up, {span}", name, lambda name, means=means: float(np.nanmax(means)))
     elif sort in ("floating turbine", "bodies"):
         swings = decay.decays(run)
         for d in swings[:2]:   # what a decay test is made for
@@ -460,6 +458,9 @@ def _slack(run, column):
     return float(np.mean(run.column(column) <= 9.81 * segment))
 
 
+HOURLY = 1.0 / 6.0   # h: of a shorter run a rate per hour says nothing
+
+
 def _energy(run):
     """Energy that the time steps made or lost, against the most that was in motion: the work of single loads, weight and buoyancy, may be far larger."""
     works = [run.column(n) for n in run.columns if n.startswith("energy.") and n.endswith("work_J")]
@@ -472,8 +473,8 @@ def _energy(run):
     hours = (run.time[-1] - run.time[0]) / 3600.0
     share, round_off = abs(made) / moved, 1e-12 * sum(float(np.abs(np.diff(w)).sum()) for w in works)
     good = share < 0.02 or abs(made) <= round_off
-    text = (f"the bodies' steps {'made' if made > 0 else 'lost'} {words.number(abs(made), 2)} J, {words.number(100 * share, 2)} % of the largest kinetic energy or net work; "
-            f"{words.number(abs(made) / hours, 2)} J an hour")
+    text = (f"the bodies' steps {'made' if made > 0 else 'lost'} {words.number(abs(made), 2)} J, {words.number(100 * share, 2)} % of the largest kinetic energy or net work"
+            + (f"; {words.number(abs(made) / hours, 2)} J an hour" if hours >= HOURLY else ""))
     return Check("good" if good else "warn", "Energy", text + ("" if share < 0.02 else ": round-off of the loads' work" if good else ": try a smaller time.step_s"))
 
 
@@ -494,7 +495,8 @@ def _water(run):
     unit, factor = quantities.scaled("J", max(abs(work), abs(dissipated), abs(absorbed), abs(left)))
     said = f"work of bodies and paddle {words.number(factor * work, 3)} {unit}, dissipated {words.number(factor * dissipated, 3)}, absorbed in zones {words.number(factor * absorbed, 3)}" + (
         f", taken along by water that left {words.number(factor * left, 3)}" if left else "")
-    text = (f"{said}; unexplained {words.number(factor * made, 2)} {unit} ({words.number(100 * share, 2)} % of what was turned over, {words.number(factor * made / hours, 2)} {unit} an hour)")
+    rate = f", {words.number(factor * made / hours, 2)} {unit} an hour" if hours >= HOURLY else ""
+    text = f"{said}; unexplained {words.number(factor * made, 2)} {unit} ({words.number(100 * share, 2)} % of what was turned over{rate})"
     mass = run.column("sea.mass_kg") if "sea.mass_kg" in run.columns else None
     if mass is not None and mass[-1] != mass[0]:
         text += f"; mass changed by {words.number(100 * (mass[-1] / mass[0] - 1), 2)} %"

@@ -19,6 +19,11 @@ def number(value, digits=4):
     return rounded.replace("-", "−")
 
 
+def short(seconds):
+    """'8.1 ms', '1.2 s': of a physical time."""
+    return f"{number(1e3 * seconds, 2)} ms" if seconds < 0.1 else f"{number(seconds, 2)} s"
+
+
 def duration(seconds):
     """'0.62 s', '2 min 5 s', '3 h 10 min'."""
     if seconds < 100:

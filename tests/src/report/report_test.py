@@ -419,10 +419,34 @@ class PartsTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             synthetic_run.write(pathlib.Path(folder), table=table, log="", scene="[sea]\nmodel = 'sph'\n[bodies.cylinder]\nmass_kg = 1.0\nvelocity_m_s = [0, 0, -2.96]\n")
             run = RunData(pathlib.Path(folder))
-            self.assertEqual(verdict.answers(run), [("heave, at the end", "−0.1700", "m"), ("largest load of the water, up", "1.300", "kN")])
+            self.assertEqual(verdict.answers(run), [("heave, at the end", "−0.1700", "m"), ("largest load of the water, up, of one row", "1.300", "kN")])
             self.assertEqual({c.title: c.level for c in verdict.health(run)}["Settled"], "good")
             self.assertEqual(page._span(run), "Of the whole run.")
             self.assertEqual(str(page.spectra([run])), "")
+
+    def test_the_load_of_an_impact_is_a_mean_over_the_sound_in_it(self):
+        t = 0.0005 * np.arange(61)
+        load = 27e3 * np.sin(np.pi * t / 0.05) + 40e3 * np.sin(2 * np.pi * t / 0.0023)   # a similarity solution's and the ringing of the water
+        table = {"time_s": t, "wedge.x_m": 0 * t, "wedge.z_m": -5.0 * t, "wedge.vx_m_s": 0 * t, "wedge.vy_m_s": 0 * t, "wedge.vz_m_s": -5.0 + 0 * t, "wedge.sea.fz_N": load}
+        scene = ("[environment]\nwater_depth_m = 1.0\n[sea]\nmodel = 'sph'\n[sea.particles]\ndimensions = '{}'\n{}\n[bodies.wedge]\nmass_kg = 1.0\nvelocity_m_s = [0, 0, -5.0]\n"
+                 "[[bodies.wedge.boxes]]\ncentre_m = [0.0, 0.0, 0.0]\nsize_m = [0.5, 0.75, 0.2]\n")
+        with tempfile.TemporaryDirectory() as folder:
+            for dimensions, sound, over, said in (("2", "", 0.01, "10 ms"), ("2", "sound_speed_m_s = 200.0", 0.005, "5.0 ms"), ("3", "", 0.015, "15 ms"),
+                                                  ("2", "sound_speed_factor = 40.0", 1.0 / (40.0 * 9.81 ** 0.5), "8.0 ms"), ("2", "sound_speed_m_s = 1500.0", None, "")):
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format(dimensions, sound), ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
+                run = RunData(pathlib.Path(folder))
+                (text, value, unit), = [answer for answer in verdict.answers(run) if answer[0].startswith("largest load")]
+                if over is None:   # less than a few rows
+                    self.assertEqual(text, "largest load of the water, up, of one row")
+                    continue
+                self.assertEqual((text, unit), (f"largest load of the water, up, mean over {said}", "kN"))
+                whole = round(over / 0.0023)
+                self.assertAlmostEqual(float(value), 26.0, delta=1.0 + 40.0 / (np.pi * whole))
+            synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format("2", ""), ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
+            run = RunData(pathlib.Path(folder))
+            largest = next(value for text, value, _ in verdict.answers(run) if text.startswith("largest load"))
+            self.assertRegex(str(page.key_figures(run)), rf"wedge load up, mean of 10 ms.*{largest}</td>")
+            self.assertIn(f"its largest mean over 10 ms, in which sound goes through the body and back, is {largest} kN", page.time_figures([run])["forces"])
 
     def test_a_gust_answers_with_its_least_and_greatest_loads(self):
         t = 0.1 * np.arange(600)
@@ -768,6 +792,33 @@ class PartsTest(unittest.TestCase):
                 found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Energy"]
                 self.assertEqual(found.level, level, found.text)
                 self.assertIn(text, found.text)
+                self.assertNotIn("an hour", found.text)   # of seconds
+                synthetic_run.write(pathlib.Path(folder), table=table | {"time_s": 90.0 * t}, scene="", log="")
+                self.assertIn("J an hour", {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Energy"].text)
+
+    def test_what_was_modelled_leaves_out_what_the_scene_has_not(self):
+        scene = "[time]\nend_s = 600.0\nintegrator = 'rk4'\n[environment]\nwater_depth_m = 100.0\n[sea]\nmodel = 'none'\n[waves]\nmodel = 'none'\n[aero]\nmodel = 'blade_resolved'\n{}"
+        for more, said, left_out in (("[aero.flow]\ntime = 'steady'\n", "to 600 pseudo-steps", ("Water", "none", "rk4", "600 s")), ("[bodies.a]\nmass_kg = 1.0\n", "to 600 s; rk4", ("Water", "none"))):
+            with self.subTest(more), tempfile.TemporaryDirectory() as folder:
+                t = np.arange(10.0)
+                table = {"time_s": t, "flow.lift_coefficient": 1.0 + t} if "steady" in more else {"time_s": t, "a.z_m": t}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene=scene.format(more), log="")
+                found = page.model(RunData(pathlib.Path(folder)))
+                self.assertIn(said, found)
+                for words in left_out:
+                    self.assertNotIn(words, found)
+
+    def test_sensors_are_among_the_key_figures_and_have_a_figure(self):
+        t = 0.1 * np.arange(100)
+        table = {"time_s": t, "wall.mean_pressure_Pa": 5e3 * np.sin(t) ** 2, "wall.fx_N": 2e3 * np.sin(t) ** 2, "wall.fy_N": 0 * t, "wall.fz_N": 0 * t, "sea.x_max_m": 1.0 + t}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="[sea]\nmodel = 'sph'\n", log="")
+            run = RunData(pathlib.Path(folder))
+            shown = str(page.key_figures(run)).partition("<details>")[0]
+            self.assertIn("wall.mean_pressure_Pa", shown)
+            self.assertRegex(shown, r"wall\.fx_N.*2\.000</td>")
+            self.assertNotIn("wall.fy_N", shown)
+            self.assertIn("wall: sensor", [group.title for group in quantities.groups(run.columns) if not group.fold])
 
     def test_health_closes_the_balance_of_the_water(self):
         t = np.linspace(0.0, 10.0, 101)
@@ -784,7 +835,9 @@ class PartsTest(unittest.TestCase):
             found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "open"))}["Water"]
             self.assertEqual(found.level, "warn")
             self.assertIn("unexplained −30", found.text)
-            self.assertIn("J an hour", found.text)
+            self.assertNotIn("an hour", found.text)   # of seconds
+            synthetic_run.write(pathlib.Path(folder) / "long", table=table | {"time_s": 72.0 * t}, scene="", log="")
+            self.assertIn("−150 J an hour", {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "long"))}["Water"].text)
             table["sea.left_J"] = 3.0 * t
             synthetic_run.write(pathlib.Path(folder) / "left", table=table, scene="", log="")
             found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "left"))}["Water"]
