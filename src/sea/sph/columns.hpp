@@ -22,6 +22,7 @@ struct Domain {
   /// a wall, where it would fall between the rows and come out anywhere: over the edge it has left, below it is lost.
   std::array<double, dim> wall_low = everywhere(-1.0), wall_high = everywhere(1.0);
   double edge = std::numeric_limits<double>::infinity();
+  double beside_open = 0.0;  ///< what is lost so near to an open side has fallen past the end of the bed there, and has left [m]
   bool contains(const std::array<double, dim>& x) const {
     for (int k = 0; k < dim; ++k)
       if (!(x[k] >= low[k] && x[k] < high[k]) && !periodic[k]) return false;  // also catches NaN
@@ -43,7 +44,7 @@ struct Domain {
   enum class Exit { lost, over_edge, open_side };
   Exit exit_of(const std::array<double, dim>& x) const {
     for (int k = 0; k < dim - 1; ++k)
-      if (open[k] && (x[k] < low[k] || x[k] >= high[k])) return Exit::open_side;
+      if (open[k] && (x[k] < low[k] + beside_open || x[k] >= high[k] - beside_open)) return Exit::open_side;
     const bool over_top = x[dim - 1] >= high[dim - 1] && std::isfinite(edge) && std::isfinite(x[dim - 1]);
     return over_top || (in_wall(x) && x[dim - 1] > edge) ? Exit::over_edge : Exit::lost;
   }

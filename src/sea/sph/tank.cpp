@@ -641,7 +641,7 @@ class Layout {
     domain.wall_low[dim - 1] = plan_.bed_at(plan_.x[0]);
     for (const auto& point : plan_.bed) domain.wall_low[dim - 1] = std::min(domain.wall_low[dim - 1], point[1]);
     domain.wall_low[dim - 1] -= p_.spacing;
-    domain.edge = plan_.top - p_.spacing;
+    domain.edge = plan_.top - p_.spacing, domain.beside_open = p_.reach();
     domain.low[dim - 1] = lowest - margin;
     domain.high[dim - 1] = highest + 2.0 * (highest + plan_.depth) + margin;
     return domain;
