@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <limits>
+#include <numeric>
 
 #include "kernels/rigid/closed_surface.hpp"
 #include "src/scene/document.hpp"
@@ -68,17 +69,64 @@ Reach reach(const BodyOptions& body, const Motion& now) {
   return result;
 }
 
-double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity) {
-  std::set<std::string> held;
-  for (const auto& joint : joints) held.insert(joint.options.bodies.begin(), joint.options.bodies.end());
-  for (const auto& beam : beams) held.insert(beam.options.bodies.begin(), beam.options.bodies.end());
+namespace {
+
+/// Whether neither body of a joint can fall along it while the other stays: one that slides along what is not level lets it.
+bool holds_height(const JointOptions& joint) {
+  constexpr double level = 1e-6;
+  if (joint.translation) return true;
+  const double up = std::abs(joint.axis.normalized().z());
+  switch (joint.type) {
+    case JointType::translational:
+    case JointType::cylindrical:
+      return up < level;
+    case JointType::planar:
+      return up > 1.0 - level;
+    case JointType::fixed:
+    case JointType::revolute:
+    case JointType::spherical:
+    case JointType::universal:
+      break;
+  }
+  return true;
+}
+
+/// How far each body falls until the lowest of those that fall with it meets the water [m]; those held by the earth do not.
+std::vector<double> fall_heights(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams,
+                                 double water_level) {
+  std::vector<std::size_t> group(bodies.size() + 1);  // the last is the earth's
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  const auto place = [&](const std::string& name) {
+    const int body = index_of(bodies, name);
+    return body == earth ? bodies.size() : std::size_t(body);
+  };
+  const auto tie = [&](const std::vector<std::string>& both) {
+    std::ranges::replace(group, std::size_t(group[place(both[0])]), std::size_t(group[place(both[1])]));
+  };
+  for (const auto& joint : joints)
+    if (holds_height(joint.options)) tie(joint.options.bodies);
+  for (const auto& beam : beams) tie(beam.options.bodies);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> lowest(group.size(), none), heights(bodies.size(), 0.0);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (const Eigen::AlignedBox3d box = bounds(bodies[b].options); !box.isEmpty())
+      lowest[group[b]] = std::min(lowest[group[b]], box.min().z() + bodies[b].options.displacement_m.z());
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (group[b] != group.back() && lowest[group[b]] < none) heights[b] = std::max(0.0, lowest[group[b]] - water_level);
+  return heights;
+}
+
+}  // namespace
+
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity,
+                   double water_level) {
+  const std::vector<double> heights = fall_heights(bodies, joints, beams, water_level);
   double fastest = 0.0;
-  for (const auto& [name, body] : bodies) {
-    const Eigen::AlignedBox3d box = bounds(body);
-    if (box.isEmpty()) continue;
-    const double height = held.contains(name) ? 0.0 : std::max(0.0, box.min().z() + body.displacement_m.z());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyOptions& body = bodies[b].options;
+    if (bounds(body).isEmpty()) continue;
     const double speed = body.velocity_m_s.norm() + body.omega_rad_s.norm() * extent(body);
-    fastest = std::max(fastest, std::sqrt(speed * speed + 2.0 * gravity * height));
+    fastest = std::max(fastest, std::sqrt(speed * speed + 2.0 * gravity * heights[b]));
   }
   for (const Joint& joint : make_joints(joints, bodies)) {
     if ((joint.i == earth) == (joint.j == earth)) continue;

@@ -25,8 +25,11 @@ struct Reach {
 };
 Reach reach(const BodyOptions& body, const Motion& now);
 
-/// A bound of the speed at which shapes meet still water at z = 0 [m/s]: their speed at the start, and what a fall from above
-/// the water adds to it where no joint or beam holds the body; the speed of joints that drive a body from the earth.
-double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity);
+/// A bound of the speed at which shapes meet still water at z = `water_level` [m/s]: their speed at the start, and what a fall
+/// from above the water adds to it; the speed of joints that drive a body from the earth. Bodies that joints or beams tie
+/// together fall as one, until the lowest meets the water. They do not fall where such ties lead to the earth. A joint that
+/// slides up and down, and is not driven, ties no heights together.
+double entry_speed(const NamedBodies& bodies, const NamedJoints& joints, const NamedBeams& beams, double gravity,
+                   double water_level = 0.0);
 
 }  // namespace spindrift::bodies

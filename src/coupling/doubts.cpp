@@ -71,7 +71,8 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
                                     s.environment.water_density_kg_m3, s.environment.gravity_m_s2, s.time.step()};
   std::optional<Bed> bed;
   if (!s.environment.bathymetry.empty()) around.bed = &bed.emplace(moorings::read_bed(s.environment.bathymetry));
-  sea::BodiesInSea in_sea{.entry_speed = bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2)};
+  sea::BodiesInSea in_sea{
+      .entry_speed = bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2, s.sea.lowest_surface())};
   for (const auto& [name, body] : s.bodies) {
     around.masses_kg[name] = body.mass_kg, around.centres[name] = body.centre_m, around.pieces[name] = bodies::pieces(body);
     if (const Eigen::AlignedBox3d box = bodies::bounds(body); !box.isEmpty())

@@ -61,8 +61,9 @@ SeaSource::SeaSource(const Scenario& s, double step_s, const LoadsWanted& loads)
 
 void SeaSource::plan_particles(const Scenario& s) {
   const std::vector<sea::ParticleBody> shaped = particle_bodies(s.bodies);
-  plan_ = sea::particle_plan(s.sea, s.waves, sea_environment(s.environment), shaped,
-                             bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2));
+  plan_ =
+      sea::particle_plan(s.sea, s.waves, sea_environment(s.environment), shaped,
+                         bodies::entry_speed(s.bodies, s.joints, s.beams, s.environment.gravity_m_s2, s.sea.lowest_surface()));
   for (sea::SensorOptions& sensor : plan_->sensors)
     if (sensor.mean_over_s == 0.0) sensor.mean_over_s = s.time.window_s;
   std::vector<std::vector<sph::BodyShape>> shapes;

@@ -109,6 +109,11 @@ struct SeaOptions {
   std::optional<FieldsOptions> fields;
 
   bool has_particles() const { return model == "sph"; }
+  /// Of the water at the start, which stands at z = 0 where there are no boxes of it [m].
+  double lowest_surface() const {
+    if (water.empty()) return 0.0;
+    return std::ranges::min(water, {}, [](const BoxOptions& box) { return box.high_m.z(); }).high_m.z();
+  }
   double settle_s() const { return initial ? initial->settle_s : 0.0; }
   bool starts_in_waves() const { return initial && (initial->state == "waves" || initial->state == "standing"); }
   bool led_to_waves() const {

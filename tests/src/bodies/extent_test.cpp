@@ -41,20 +41,74 @@ TEST_CASE("a free body enters the water with the speed of its fall, a floating o
   CHECK(entry_speed(ball(1.5, {0.0, 0.0, -2.0}), {}, {}, gravity) == Approx(std::sqrt(4.0 + 2.0 * gravity * 1.0)));
 }
 
-TEST_CASE("a body on a joint does not fall; one that is driven from the earth comes with the driver's speed", "[bodies][fast]") {
-  CHECK(entry_speed(ball(1.5), rail({}), {}, gravity) == 0.0);
+TEST_CASE("a body falls on a rail that is not level, and on one that a mass rides on with it", "[bodies][fast]") {
+  const double falls = std::sqrt(2.0 * gravity);
+  CHECK(entry_speed(ball(1.5), rail({}), {}, gravity) == Approx(falls));
+  NamedJoints joints = rail({});
+  joints[0].options.axis = {1.0, 0.0, 1.0};
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == Approx(falls));
+  joints[0].options.axis = Vector3d::UnitX();
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == 0.0);
+  joints[0].options.type = JointType::cylindrical;
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == 0.0);
+  joints[0].options.type = JointType::planar;
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == Approx(falls));
+  joints[0].options.axis = Vector3d::UnitZ();
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == 0.0);
+  joints[0].options.type = GENERATE(JointType::fixed, JointType::revolute, JointType::spherical, JointType::universal);
+  CHECK(entry_speed(ball(1.5), joints, {}, gravity) == 0.0);
+}
+
+TEST_CASE("bodies that are tied together fall as one, until the lowest meets the water", "[bodies][fast]") {
+  NamedBodies bodies = ball(1.5);
+  BodyOptions mast;
+  mast.mass_kg = 1.0, mast.centre_m = {0.0, 0.0, 3.0}, mast.boxes = {{"mast", mast.centre_m, {0.1, 0.1, 2.0}}};
+  bodies.push_back({"mast", mast});
+  JointOptions weld;
+  weld.type = JointType::fixed, weld.bodies = {"ball", "mast"};
+  NamedJoints joints;
+  joints.push_back({"weld", weld});
+  CHECK(entry_speed(bodies, {}, {}, gravity) == Approx(std::sqrt(2.0 * gravity * 2.0)));
+  CHECK(entry_speed(bodies, joints, {}, gravity) == Approx(std::sqrt(2.0 * gravity * 1.0)));
+  SECTION("where that floats, none falls") {
+    bodies[0].options.displacement_m.z() = -1.5;
+    CHECK(entry_speed(bodies, joints, {}, gravity) == 0.0);
+  }
+  SECTION("the earth holds all of them through one") {
+    joints.push_back(rail({})[0]);
+    CHECK(entry_speed(bodies, joints, {}, gravity) == Approx(std::sqrt(2.0 * gravity * 1.0)));
+    joints[1].options.type = JointType::revolute;
+    CHECK(entry_speed(bodies, joints, {}, gravity) == 0.0);
+  }
+  SECTION("a mass that slides up and down on another falls by itself") {
+    joints[0].options.type = JointType::translational, joints[0].options.axis = Vector3d::UnitZ();
+    bodies[0].options.displacement_m.z() = -1.5;
+    CHECK(entry_speed(bodies, joints, {}, gravity) == Approx(std::sqrt(2.0 * gravity * 2.0)));
+  }
+}
+
+TEST_CASE("a fall ends where the water is", "[bodies][fast]") {
+  CHECK(entry_speed(ball(1.5), {}, {}, gravity, -1.0) == Approx(std::sqrt(2.0 * gravity * 2.0)));
+  CHECK(entry_speed(ball(1.5), {}, {}, gravity, 1.2) == 0.0);
+}
+
+TEST_CASE("a body that is driven from the earth comes with the driver's speed", "[bodies][fast]") {
   DriverOptions steady, swing;
   steady.rate = -2.0, swing.amplitude = 0.5, swing.period_s = 3.14159265358979;
   CHECK(entry_speed(ball(1.5), rail(steady), {}, gravity) == Approx(2.0));
   CHECK(entry_speed(ball(1.5), rail(swing), {}, gravity) == Approx(1.0));
 }
 
-TEST_CASE("a nacelle on a flexible tower does not fall into the water", "[bodies][fast]") {
+TEST_CASE("a nacelle on a flexible tower falls only with what carries it", "[bodies][fast]") {
+  NamedBodies bodies = ball(100.0);
+  BodyOptions platform;
+  platform.mass_kg = 100.0, platform.spheres = {{"float", Vector3d::Zero(), 2.0}};
+  bodies.push_back({"platform", platform});
   BeamOptions tower;
   tower.bodies = {"platform", "ball"};
   NamedBeams beams;
   beams.push_back({"tower", tower});
-  CHECK(entry_speed(ball(100.0), {}, beams, gravity) == 0.0);
+  CHECK(entry_speed(bodies, {}, beams, gravity) == 0.0);
 }
 
 TEST_CASE("the box about a cylinder is that of its discs", "[bodies][fast]") {
