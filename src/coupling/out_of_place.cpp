@@ -77,13 +77,7 @@ std::pair<double, std::string> depth_in_tank(const sph::TankPlan& tank, bool pla
 bool has_level_water(const Scenario& scenario) {
   const sea::SeaOptions& sea = scenario.sea;
   if (!sea.has_particles() || sea.water.empty()) return true;
-  if (sea.water.size() > 1) return false;
-  const double near = 1e-6 * scenario.environment.water_depth_m;
-  const auto reaches = [&](int axis, const std::array<double, 2>& sides) {
-    return sea.water[0].low_m[axis] <= sides[0] + near && sea.water[0].high_m[axis] >= sides[1] - near;
-  };
-  return std::abs(sea.water[0].high_m[2]) <= near && reaches(0, sea.tank->x_m) &&
-         (sea.particles->planar() || reaches(1, sea.tank->y_m));
+  return sea.water.size() == 1 && sea::stands_level(sea, scenario.environment.water_depth_m, sea.tank->x_m, sea.tank->y_m);
 }
 
 void require_room(const FloatingSystem& floating, const bodies::BodiesState& start) {

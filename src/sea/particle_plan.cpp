@@ -105,6 +105,16 @@ std::vector<waves::Component> over_bed(std::vector<waves::Component> waves, doub
   return waves;
 }
 
+std::array<double, 2> ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// " (surfaces: sea.water[0] -0.3 m, ...)"
+std::string surfaces_of(const SeaOptions& o) {
+  std::string all;
+  for (std::size_t n = 0; n < o.water.size(); ++n)
+    all += fmt::format("{}sea.water[{}] {:g} m", n == 0 ? "" : ", ", n, o.water[n].high_m[2]);
+  return " (surfaces: " + all + ")";
+}
+
 }  // namespace
 
 ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
@@ -150,6 +160,22 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
     plan.tank.paddle_reach = paddle.flap ? reach * (t.top_m - hinge) / -hinge : reach;
   }
   return plan;
+}
+
+bool stands_level(const SeaOptions& o, double water_depth, const std::array<double, 2>& x, const std::array<double, 2>& y) {
+  if (o.water.empty()) return true;
+  const sph::TankPlan ground{.depth = water_depth, .bed = o.tank->bed_m};
+  double bed = std::min(ground.bed_at(x[0]), ground.bed_at(x[1]));
+  for (const auto& point : ground.bed)
+    if (point[0] > x[0] && point[0] < x[1]) bed = std::min(bed, point[1]);
+  const double near = 1e-6 * water_depth;
+  return std::ranges::any_of(o.water, [&](const BoxOptions& box) {
+    const auto reaches = [&](int axis, const std::array<double, 2>& stretch) {
+      return box.low_m[axis] <= stretch[0] + near && box.high_m[axis] >= stretch[1] - near;
+    };
+    return std::abs(box.high_m[2]) <= near && box.low_m[2] <= bed + near && reaches(0, x) &&
+           (o.particles->planar() || reaches(1, y));
+  });
 }
 
 std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOptions& waves, const SeaEnvironment& environment,
@@ -266,6 +292,12 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
     if (!(bed < 0.0))
       wrong("sea.tank.bed_m",
             fmt::format("must be below still water at the paddle of [sea.wavemaker], where it is at {:.4g} m", bed));
+    if (!stands_level(o, depth, {t.x_m[0], t.x_m[0]}, t.y_m))
+      wrong("sea.water[0]",
+            fmt::format("with [sea.wavemaker] a box of water must begin at the paddle at x = {:g} m, reach {}down to the bed and "
+                        "stand at z = 0, of which its waves are{}",
+                        t.x_m[0], planar ? "" : "from side to side, ", surfaces_of(o)),
+            "sea.wavemaker");
     if (w.type == "flap" && waved && wave_models().named(waves.model).second_order)
       wrong("sea.wavemaker.type", "a flap makes waves of first order: use a piston for " + waves.model);
     if (w.stroke_m && !(waved && wave_models().named(waves.model).regular))
@@ -395,6 +427,12 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       double highest = std::max(ground.bed_at(low), ground.bed_at(high));
       for (const auto& point : t.bed_m)
         if (point[0] > low && point[0] < high) highest = std::max(highest, point[1]);
+      if (!stands_level(o, depth, {low, high}, zone.axis == "y" ? ordered(zone.from_m, zone.to_m) : t.y_m))
+        wrong(key + ".towards",
+              fmt::format(
+                  "must be \"rest\" where no box of [[sea.water]] holds the whole zone, down to the bed and up to z = 0, of "
+                  "which [waves] is{}",
+                  surfaces_of(o)));
       if (highest > -depth + 1e-9 * depth)
         wrong(key + ".towards", fmt::format("must be \"rest\" where the bed (sea.tank.bed_m) rises to {:.4g} m: [waves] is of a "
                                             "level bed at environment.water_depth_m",

@@ -72,6 +72,10 @@ struct ParticlePlan {
 ParticlePlan particle_plan(const SeaOptions& options, const WavesOptions& waves, const SeaEnvironment& environment,
                            std::vector<ParticleBody> bodies, double entry_speed);
 
+/// Whether the water stands at z = 0 down to the bed over these stretches of x and y at the start: in one box of [[sea.water]],
+/// or in the whole tank where there are none. In 2-D y does not matter.
+bool stands_level(const SeaOptions& options, double water_depth, const std::array<double, 2>& x, const std::array<double, 2>& y);
+
 /// Rules between the sections of a sea of particles that it breaks.
 std::vector<OptionProblem> particle_problems(const SeaOptions& options, const WavesOptions& waves,
                                              const SeaEnvironment& environment, std::span<const ParticleBody> bodies);

@@ -299,6 +299,9 @@ sea.particles.dimensions="2" & sea.tank.y_m=[0.0, 0.0] & bodies.buoy.meshes[0].p
 sea.tank.sides_x="open" & bodies.box.boxes[0].centre_m=[0.9, 0.0, 0.0] : bodies.box
 sea.initial.settle_s=0.0 & sea.initial.settle_damping_1_s=0.0 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.tank.bed_m=[[-1.0, -0.6], [1.0, -0.3]] : sea.tank.bed_m
 sea.initial.settle_s=0.2 & sea.initial.state="waves" & waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.wavemaker.type="piston" : sea.wavemaker.start_s
+waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.wavemaker.type="piston" & sea.water=[{low_m=[-1.0, 0.0, -0.6], high_m=[1.0, 0.0, -0.3]}] : sea.water[0]
+waves.model="airy" & waves.height_m=0.05 & waves.period_s=1.0 & sea.initial.settle_damping_1_s=0.0 & sea.damping_zones=[{from_m=0.0, to_m=1.0, rate_1_s=20.0, towards="waves"}] & sea.water=[{low_m=[-1.0, 0.0, -0.6], high_m=[1.0, 0.0, -0.3]}] : sea.damping_zones[0].towards
+bodies.box.cylinders=[{name="brace", start_m=[-0.4, -0.2, 0.0], end_m=[0.4, 0.2, 0.0], diameter_m=0.4}] : bodies.box.cylinders[0]
 bodies.box.displacement_m=[0.0, 0.1, 0.05]
 bodies.box.rotation_deg=[5.0, 0.0, 0.0]
 bodies.box.velocity_m_s=[0.0, 0.1, 0.0]

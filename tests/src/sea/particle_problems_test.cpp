@@ -148,6 +148,27 @@ TEST_CASE("what waves do not go with in a sea of particles is refused", "[sea][s
     s.sea.wavemaker->ramp_s = 1.0;
     CHECK_THAT(s.refused(), Contains("sea.wavemaker.ramp_s must be 0"));
   }
+  SECTION("water at a paddle that does not stand at z = 0") {
+    s.sea.wavemaker = WavemakerOptions{};
+    s.sea.obstacles = {{{2.0, 0.0, -1.0}, {2.2, 2.0, 0.1}}};
+    s.sea.water = {{{0.0, 0.0, -1.0}, {2.0, 2.0, 0.0}}};  // to an obstacle, dry beyond
+    CHECK(s.refused() == "");
+    SECTION("lower") { s.sea.water[0].high_m[2] = -0.3; }
+    SECTION("not down to the bed") { s.sea.water[0].low_m[2] = -0.6; }
+    SECTION("not from side to side") { s.sea.water[0].high_m[1] = 1.0; }
+    SECTION("elsewhere") { s.sea.water[0].low_m[0] = 0.5; }
+    CHECK_THAT(s.refused(), Contains("sea.water[0] with [sea.wavemaker] a box of water must begin at the paddle"));
+  }
+  SECTION("water in a zone towards waves that does not stand at z = 0") {
+    s.sea.damping_zones = {led};
+    s.sea.water = {{{2.5, 0.0, -1.0}, {4.0, 2.0, 0.0}}};
+    CHECK(s.refused() == "");
+    SECTION("lower") { s.sea.water[0].high_m[2] = -0.3; }
+    SECTION("in a part of it") { s.sea.water[0].low_m[0] = 3.5; }
+    CHECK_THAT(s.refused(), Contains("sea.damping_zones[0].towards must be \"rest\""));
+    s.sea.damping_zones[0].towards = "rest";
+    CHECK_THAT(s.refused(), !Contains("sea.damping_zones[0]"));
+  }
   SECTION("stretching") {
     s.sea.initial = InitialOptions{.state = "waves"};
     CHECK(s.refused() == "");
