@@ -14,7 +14,8 @@ namespace spindrift::coupling {
 
 namespace {
 
-constexpr double close = 1e-6;  // of a body's size: what is written with six digits
+constexpr double close = 1e-6;    // of a body's size: what is written with six digits
+constexpr double leaning = 1e-3;  // sine of an angle
 const char* const key_of_plane = "sea.tank.sides_y";
 
 bool meets_particles(const bodies::BodyOptions& o) {
@@ -35,6 +36,19 @@ class InPlane {
     if (o.rotation.x() != 0.0 || o.rotation.z() != 0.0) out_of_plane(section + "rotation_deg", "in roll or yaw");
     if (o.velocity_m_s.y() != 0.0) out_of_plane(section + "velocity_m_s", "along y");
     if (o.omega_rad_s.x() != 0.0 || o.omega_rad_s.z() != 0.0) out_of_plane(section + "omega_rad_s", "in roll or yaw");
+  }
+  /// In a plane a cylinder is a disc or a rectangle.
+  void require_shapes(const std::string& name, const bodies::BodyOptions& o) {
+    for (std::size_t n = 0; n < o.cylinders.size(); ++n) {
+      const Eigen::Vector3d axis = (o.cylinders[n].end_m - o.cylinders[n].start_m).normalized();
+      const double out = std::abs(axis.y()), in = std::hypot(axis.x(), axis.z());
+      if (std::min(out, in) > leaning)
+        wrong(
+            fmt::format("bodies.{}.cylinders[{}]", name, n),
+            fmt::format("has an axis (start_m to end_m) that leans by {:.3g} degrees out of {}: it must lie in it (a rectangle) "
+                        "or be along y (a disc)",
+                        std::atan2(out, in) / radians_per_degree, plane_));
+    }
   }
   void require_drivers(const Scenario& s, const std::string& prefix) {
     std::set<std::string> held{"earth"};
@@ -162,7 +176,7 @@ std::vector<sea::OptionProblem> out_of_plane_problems(const Scenario& s) {
   std::vector<sea::OptionProblem> problems;
   InPlane in_plane("sea.particles.dimensions", "the plane of a sea of two dimensions", problems);
   for (const auto& [name, body] : s.bodies)
-    if (meets_particles(body)) in_plane.require_start(name, body);
+    if (meets_particles(body)) in_plane.require_start(name, body), in_plane.require_shapes(name, body);
   in_plane.require_drivers(s, of_two_dimensions);
   return problems;
 }
