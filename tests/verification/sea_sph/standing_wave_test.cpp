@@ -16,10 +16,13 @@ struct Wave {
   double viscosity;        ///< decay rate / (2 k^2) [m2/s]
 };
 
-Wave standing_wave(double spacing, double alpha, double periods) {
+/// `change` sets the viscosity of the water; walls have none.
+template <class Change>
+Wave standing_wave(double spacing, double periods, const Change& change) {
   const double length = 1.0, amplitude = 0.01, k = 2.0 * pi / length;
   Tank tank(spacing, length, 0.5);
-  tank.p.alpha = alpha, tank.p.alpha_solid = 0.0;
+  tank.p.alpha = tank.p.alpha_solid = tank.p.nu = tank.p.nu_solid = 0.0;
+  change(tank.p);
   const double omega = std::sqrt(tank.p.gravity * k * std::tanh(k * tank.depth)), period = 2.0 * pi / omega;
   std::vector<Seed<2>> seeds;
   tank.add_water_to(seeds);
@@ -55,11 +58,28 @@ Wave standing_wave(double spacing, double alpha, double periods) {
   return {0.5 * halves * period / (crossings.back() - crossings[1]), decay / (2.0 * k * k)};
 }
 
+Wave standing_wave(double spacing, double alpha, double periods) {
+  return standing_wave(spacing, periods, [&](Parameters& p) { p.alpha = alpha; });
+}
+
 }  // namespace
 
 TEST_CASE("a standing wave swings at the frequency of linear theory", "[verification][sea][fast]") {
   const Wave wave = standing_wave(0.04, 0.01, 3.0);
   CHECK(wave.frequency_ratio == Approx(1.0).margin(0.03));
+}
+
+// The pair force is a Laplacian, whose free surface holds back grad v n where that of a fluid holds back (grad v + grad v^T) n:
+// of an irrotational wave it takes half in the limit (Colagrossi et al. 2011, Phys. Rev. E 84, 026705).
+TEST_CASE("laminar viscosity takes from a standing wave a little less than half of what a viscous fluid loses",
+          "[verification][sea][fast]") {
+  const auto viscosity_with = [](double nu) {
+    return standing_wave(0.04, 3.0, [&](Parameters& p) { p.viscosity = ViscosityChoice::laminar, p.nu = nu; }).viscosity;
+  };
+  constexpr double nu = 4e-3;
+  const double share = (viscosity_with(nu) - viscosity_with(0.0)) / nu;
+  CHECK(share > 0.3);
+  CHECK(share < 0.5);
 }
 
 TEST_CASE("a standing wave is within 1 % of linear theory, its decay that of the artificial viscosity",
