@@ -134,6 +134,38 @@ void print_all_frequencies(const FloatingSystem& floating, const coupling::Start
   for (const auto& [rotors, c] : tables) print_frequencies(rotors, c);
 }
 
+/// Nothing where no body can move by itself.
+void print_mode_lines(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
+  const bodies::Linearisation& linearisation = stability.shown();
+  if (linearisation.modes.empty()) return;
+  fmt::print("\nModes about the {}{}\n", stability.at_rest ? "static equilibrium" : "start",
+             floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
+  const std::vector<std::string> names = told_apart(linearisation.modes);
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (const bodies::Mode& mode = linearisation.modes[n]; mode.eigenvalue == 0.0)
+      continue;
+    else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
+      fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", names[n], mode.period_s(),
+                 1.0 / mode.period_s(), 1e-2 * std::round(1e4 * mode.damping_ratio()) + 0.0);  // + 0: no minus before zero
+    else
+      fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", names[n], mode.eigenvalue.real(),
+                 mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
+  if (const Eigen::Index free = linearisation.freedoms_without_stiffness(); free > 0)
+    fmt::print("  {} of {} freedoms without stiffness\n", free, linearisation.matrix.rows() / 2);
+  if (!floating.beams().empty() && !floating.scenario().start.equilibrium && !stability.at_rest)
+    fmt::print("  without the weight that softens beams: it does so in a static equilibrium, and none is known\n");
+  constexpr double at_rest = 0.2;  // m/s2
+  if (const double a = acceleration_at(floating, start); a > at_rest && !stability.at_rest)
+    fmt::print("  the start is no equilibrium (it accelerates by {:.3g} m/s2): with start.equilibrium they may differ\n", a);
+  if (floating.particle_plan() && !floating.sea())
+    fmt::print(
+        "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
+  if (floating.sea() && floating.sea()->memory_size() > 0)
+    fmt::print(
+        "  with the added mass of infinite frequency; the waves that bodies make (radiation memory) damp these and change "
+        "periods\n");
+}
+
 void print_coupling(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
   if (floating.scenario().coupling.scheme == coupling::SchemeKind::monolithic) {
     fmt::print(
@@ -198,33 +230,7 @@ void print_statics(FloatingSystem& floating, const coupling::Start& start, const
 }
 
 void print_modes(FloatingSystem& floating, const coupling::Start& start, const coupling::Stability& stability) {
-  const bodies::Linearisation& linearisation = stability.shown();
-  fmt::print("\nModes about the {}{}\n", stability.at_rest ? "static equilibrium" : "start",
-             floating.scenario().is_controlled() ? " (rotor speed and blade pitch held: what control adds is not in them)" : "");
-  const std::vector<std::string> names = told_apart(linearisation.modes);
-  for (std::size_t n = 0; n < names.size(); ++n)
-    if (const bodies::Mode& mode = linearisation.modes[n]; mode.eigenvalue == 0.0)
-      continue;
-    else if (std::abs(mode.eigenvalue.imag()) > 1e-6)
-      fmt::print("  {:<34}period {:8.3f} s ({:.4f} Hz)   damping {:.2f} % of critical\n", names[n], mode.period_s(),
-                 1.0 / mode.period_s(), 1e-2 * std::round(1e4 * mode.damping_ratio()) + 0.0);  // + 0: no minus before zero
-    else
-      fmt::print("  {:<34}rate {:+.3g} 1/s{}\n", names[n], mode.eigenvalue.real(),
-                 mode.eigenvalue.real() > 1e-4 ? ", grows by itself" : "");
-  if (const Eigen::Index free = linearisation.freedoms_without_stiffness(); free > 0)
-    fmt::print("  {} of {} freedoms without stiffness\n", free, linearisation.matrix.rows() / 2);
-  if (!floating.beams().empty() && !floating.scenario().start.equilibrium && !stability.at_rest)
-    fmt::print("  without the weight that softens beams: it does so in a static equilibrium, and none is known\n");
-  constexpr double at_rest = 0.2;  // m/s2
-  if (const double a = acceleration_at(floating, start); a > at_rest && !stability.at_rest)
-    fmt::print("  the start is no equilibrium (it accelerates by {:.3g} m/s2): with start.equilibrium they may differ\n", a);
-  if (floating.particle_plan() && !floating.sea() && !linearisation.modes.empty())
-    fmt::print(
-        "  without the water's inertia, which is known beforehand where all shapes are cylinders: true periods are longer\n");
-  if (floating.sea() && floating.sea()->memory_size() > 0)
-    fmt::print(
-        "  with the added mass of infinite frequency; the waves that bodies make (radiation memory) damp these and change "
-        "periods\n");
+  print_mode_lines(floating, start, stability);
   const coupling::TimeOptions& time = floating.scenario().time;
   const std::string asked =
       floating.particle_plan() && !time.step_s ? "leaves it to the sea" : fmt::format("asks for {} s", time.step());

@@ -19,6 +19,8 @@ constexpr double position_difference = 1e-5;  // of the reference length, or rad
 constexpr double velocity_difference = 1e-5;  // of the reference length a second, or rad/s
 // Eigenvalues below this fraction of the largest are free directions: the square root of the differences' round-off.
 constexpr double free_fraction = 1e-4;
+// 1/s; so are those below this, of periods of 17 hours: that round-off of 1e-10 1/s2 leaves rates of 1e-5, of weights some more.
+constexpr double free_rate = 1e-4;
 
 }  // namespace
 
@@ -95,7 +97,7 @@ Linearisation linearise(System& system, const BodiesState& state, double t_s) {
   for (Eigen::Index k = 0; k < 2 * n; ++k) {
     std::complex<double> lambda = eigen.values[k];
     if (lambda.imag() < 0.0) continue;
-    if (std::abs(lambda) <= free_fraction * largest) lambda = 0.0;
+    if (std::abs(lambda) <= std::max(free_rate, free_fraction * largest)) lambda = 0.0;
     const Eigen::VectorXcd shape = eigen.vectors.col(k).head(n);
     Eigen::Index leading;
     shape.cwiseAbs().maxCoeff(&leading);
@@ -111,7 +113,8 @@ Eigen::Index Linearisation::freedoms_without_stiffness() const {
   const Eigen::Index n = matrix.rows() / 2;
   if (modes.empty()) return 0;
   const Eigen::VectorXd stiffness = dense::singular_values(matrix.bottomLeftCorner(n, n)).values;
-  const double none = free_fraction * free_fraction * std::max(std::norm(modes.front().eigenvalue), stiffness.maxCoeff());
+  const double none = std::max(
+      free_rate * free_rate, free_fraction * free_fraction * std::max(std::norm(modes.front().eigenvalue), stiffness.maxCoeff()));
   return (stiffness.array() <= none).count();
 }
 

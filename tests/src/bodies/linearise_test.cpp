@@ -73,6 +73,16 @@ TEST_CASE("freedoms without stiffness are counted once, damped or not", "[bodies
   CHECK(linearise(system, start(system), 0.0).freedoms_without_stiffness() == 5);
 }
 
+TEST_CASE("rates that round-off leaves hold no body and limit no step", "[bodies][fast]") {
+  for (const auto& [stiffness, held] : {std::pair{1e-8, false}, std::pair{1e-4, true}}) {  // 3e-5 and 3e-3 1/s
+    System system = on_springs(Integrator::rk4, stiffness, 0.0);
+    const Linearisation l = linearise(system, start(system), 0.0);
+    CHECK((l.modes.front().eigenvalue != 0.0) == held);
+    CHECK(l.freedoms_without_stiffness() == (held ? 0 : 6));
+    CHECK(std::isinf(step_limit(Integrator::rk4, l).step_s) == !held);
+  }
+}
+
 TEST_CASE("the limit of the scene holds: 0.95 of it is stable, 1.05 is not", "[bodies][fast]") {
   const auto integrator = GENERATE(Integrator::rk4, Integrator::explicit_euler, Integrator::symplectic);
   System system = on_springs(integrator, 1000.0, 8.0);
