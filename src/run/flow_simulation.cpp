@@ -231,6 +231,24 @@ std::string FlowSimulation::too_many_unconverged() const {
       march.unconverged, march.ended, air_.solver().setting().march.max_steps, o.drop, std::floor(most));
 }
 
+namespace {
+
+/// Of a march that is not asked to end by its loads, but whose loads stand still; empty of others.
+std::string settled_loads(const aero::MarchState& march, const aero::MarchOptions& asked) {
+  constexpr double still = 1e-3, far_down = 0.1;
+  if (!(march.load_swing > 0.0 && march.load_swing <= still)) return {};  // a flow round nothing has no loads
+  std::string said = fmt::format("; the loads have settled all the same: they changed by {:.2g} % over the last {} pseudo-steps",
+                                 100.0 * march.load_swing, asked.load_window);
+  const double reached = asked.by_balance ? march.balance_drop() : march.density_drop();
+  if (reached > 0.0 && reached < far_down) {
+    const double unit = std::pow(10.0, std::floor(std::log10(reached)));
+    said += fmt::format(", and aero.flow.drop = {:.0e} would have taken it", unit * std::ceil(reached / unit));
+  }
+  return said;
+}
+
+}  // namespace
+
 std::string FlowSimulation::failure_at_end() const {
   const aero::FlowOptions& o = *scenario_.aero.flow;
   if (!air_.steady())
@@ -246,7 +264,7 @@ std::string FlowSimulation::failure_at_end() const {
   const aero::MarchOptions& asked = air_.solver().setting().march;
   const std::string loads =
       asked.load_change <= 0.0
-          ? ""
+          ? settled_loads(march, asked)
           : fmt::format(", the loads {} over the last {} pseudo-steps, {:.2g} is asked for (aero.flow.load_change)",
                         march.load_swing < 1.0 ? fmt::format("changed by {:.2g} of themselves", march.load_swing)
                                                : "did not come to rest",

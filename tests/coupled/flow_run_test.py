@@ -1,6 +1,7 @@
 """The air alone as a user runs it: scenes with grids made by the program, fields and walls for ParaView, the report's pictures.
 Usage: flow_run_test.py SPINDRIFT"""
 import json
+import re
 import tomllib
 import unittest
 import xml.etree.ElementTree
@@ -59,6 +60,19 @@ class FlowRun(Folder):
             expected = wall["pressure_coefficient"]
             self.assertGreater(numpy.ptp(expected), 0.5)
             numpy.testing.assert_allclose((wall["pressure"] - ambient) / q, expected, atol=1e-5)
+
+    def test_a_march_that_misses_its_drop_with_loads_at_rest_says_so_and_what_would_have_taken_it(self):
+        for steps, settled in ((100, True), (4, False)):
+            with self.subTest(steps):
+                done = spindrift("run", CASES / "flat_plate/flat_plate.toml", "--out", self.out, "--overwrite", "--no-report", "--set", "aero.flow.generate.refinement=1",
+                                 "--set", "aero.flow.drop=1e-14", "--set", f"time.end_s={steps}.0")
+                self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+                reason = json.loads((self.out / "summary.json").read_text())["exit_reason"]
+                self.assertEqual("the loads have settled all the same: they changed by" in reason, settled, reason)
+                if settled:
+                    drop = float(re.search(r"aero\.flow\.drop = (\S+) would have taken it", reason)[1])
+                    reached = self.history()[-1]["flow.balance_drop"]
+                    self.assertTrue(reached <= drop <= 2.01 * reached, (drop, reached))
 
     def test_fields_have_the_blocks_of_the_grid_and_values_where_their_points_are(self):
         """Several tiles a block, whose own directions are turned against the block's."""
