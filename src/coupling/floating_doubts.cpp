@@ -25,6 +25,15 @@ double volume(const bodies::BodyOptions& body) {
   return sum;
 }
 
+/// A driver, or a fixed joint, holds it to the earth: nothing else has to carry it.
+bool held_by_earth(const Scenario& s, const std::string& name) {
+  return std::ranges::any_of(s.joints, [&](const auto& joint) {
+    const bodies::JointOptions& o = joint.options;
+    const auto ties = [&](const std::string& body) { return std::ranges::find(o.bodies, body) != o.bodies.end(); };
+    return ties(name) && ties("earth") && (o.type == JointType::fixed || o.rotation || o.translation);
+  });
+}
+
 /// A body that the water does not touch at the start, and that nothing else carries: it falls, and no engineering sea has the
 /// slam.
 void doubt_above_water(scene::Doubts& doubts, const Scenario& s, const std::string& name, const bodies::Reach& reach) {
@@ -222,7 +231,7 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std
                         "look at its shapes, displacement_m and environment.water_depth_m"});
     else if (constexpr double least = 2.0; floating.particle_plan() && r.low < 0.0) {
       const double gap = r.low + s.environment.water_depth_m, spacing = s.sea.particles->spacing_m;
-      if (gap < least * spacing && gap > 1e-6)
+      if (gap < least * spacing && gap > 1e-6 && !held_by_earth(s, name))
         doubts.push_back({"bodies." + name,
                           fmt::format("starts {:.3g} m above the bed, {:.2g} spacings of the particles", gap, gap / spacing),
                           fmt::format("{:g} spacings at least", least),

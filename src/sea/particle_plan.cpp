@@ -494,8 +494,9 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
           if (point[0] > low[0] - d && point[0] < high[0] + d) highest = std::max(highest, point[1]);
         return highest;
       }();
-      const std::string size = mesh ? fmt::format("; its mesh is {:.4g} x {:.4g} x {:.4g} m: look at its scale", high[0] - low[0],
-                                                  high[1] - low[1], high[2] - low[2])
+      const std::string across = planar ? "" : fmt::format(" x {:.4g}", high[1] - low[1]);  // a prism's width is no one's
+      const std::string size = mesh ? fmt::format("; its mesh is {:.4g}{} x {:.4g} m{}: look at its scale", high[0] - low[0],
+                                                  across, high[2] - low[2], planar ? " in the plane" : "")
                                     : "";
       if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m{}", low[2], bed, size));
       const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);

@@ -12,7 +12,66 @@ SHORT = ["time.end_s=0.4", "sea.initial.settle_s=0.1", "sea.particles.spacing_m=
 ACROSS = ["bodies.box.forces=[{point_m=[0.1, 0.2, 0.1], force_N=[0.0, 50.0, 20.0], moment_N_m=[3.0, 0.0, 4.0]}]"]
 
 
+BODY = """
+[bodies.{name}]
+mass_kg = {mass}
+inertia_kg_m2 = [1.0, 1.0, 1.0]
+centre_m = [{x}, 0.0, -0.5]
+[[bodies.{name}.boxes]]
+name = "hull"
+centre_m = [{x}, 0.0, -0.5]
+size_m = [0.3, 1.0, 0.2]
+"""
+TANK = """
+[time]
+end_s = 2.5
+window_s = 0.02
+[environment]
+gravity_m_s2 = 9.81
+water_density_kg_m3 = 1000.0
+water_depth_m = {depth}
+[sea]
+model = "sph"
+[sea.particles]
+dimensions = "2"
+spacing_m = 0.05
+[sea.tank]
+x_m = [-2.0, 2.0]
+top_m = 0.3
+"""
+DRIVEN = """
+[joints.rail]
+type = "translational"
+bodies = ["earth", "paddle"]
+point_m = [0.0, 0.0, 0.0]
+axis = [1.0, 0.0, 0.0]
+{driver}
+"""
+
+
 class Planar(Folder):
+    def check(self, text):
+        scene = self.path / "scene.toml"
+        scene.write_text(text)
+        said = spindrift("check", scene)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return said.stdout
+
+    def test_modes_of_round_off_are_none_and_no_step_follows_from_them(self):
+        said = self.check(TANK.format(depth=1.0) + "".join(BODY.format(name=name, mass=mass, x=x) for name, mass, x in (("heavy", 120.0, -1.2), ("neutral", 60.0, 0.0), ("light", 30.0, 1.2))))
+        modes = said.partition("Modes about the start\n")[2].partition("\n\n")[0]
+        self.assertIn("9 of 9 freedoms without stiffness", modes)
+        self.assertNotIn("period ", modes)
+        self.assertNotIn("rate ", modes)
+        self.assertRegex(said, r"rk4 +any\n")
+
+    def test_a_paddle_on_a_driven_joint_has_no_modes_and_need_not_be_carried(self):
+        paddle = TANK.format(depth=0.61) + BODY.format(name="paddle", mass=100.0, x=0.0)
+        said = self.check(paddle + DRIVEN.format(driver="[joints.rail.translation]\namplitude_m = 0.1\nperiod_s = 1.0"))
+        self.assertNotIn("Modes about", said)
+        self.assertNotIn("nothing carries it", said)
+        self.assertIn("nothing carries it", self.check(paddle))
+
     def run_scene(self, name, *more, settings, ranks=0):
         done = spindrift("run", SCENE, "--out", self.path / name, "--quiet", "--no-report", *more, settings=[*SHORT, *settings], ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stderr)

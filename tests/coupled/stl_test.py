@@ -83,6 +83,9 @@ class Fast(Buoy):
         for figure in ("12 triangles, 0.5 x 0.2 x 0.35 m; of its outline in the plane y = 0 m, 1 m wide", "0.175 m3 about", "0.1 m3 (100 kg) under water",
                        "0.5 m2; metacentre over the centre of mass: +0.1042 m in pitch", "the mass times 0.0310417 m2 in pitch"):
             self.assertIn(figure, said)
+        refused = spindrift("check", scene, settings=["bodies.box.meshes[0].scale=1.0"])
+        self.assertEqual(refused.returncode, 2, refused.stdout)
+        self.assertIn("its mesh is 500 x 350 m in the plane: look at its scale", refused.stderr)   # no width: that of the prism is nobody's
         rows = [row for row in csv.DictReader(self.run_scene("whole", scene=scene).splitlines()) if float(row["time_s"]) > 0.2]
         heave = sum(float(row["box.z_m"]) for row in rows) / len(rows)
         print(f"box in the plane: mean heave {1e3 * heave:.2f} mm of 200 mm draft", flush=True)
