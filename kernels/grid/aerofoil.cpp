@@ -33,21 +33,13 @@ double farthest_from(const PlaneCurve& curve, const Eigen::Vector2d& point) {
   return 0.5 * (low + high);
 }
 
-bool is_round(const PlaneCurve& curve) {
-  const std::size_t n = curve.x.size();
-  const auto point = [&](std::size_t i) { return Eigen::Vector2d(curve.x[i], curve.y[i]); };
-  if ((point(n - 1) - point(0)).norm() >= 1e-9 * curve.total()) return false;
-  return (point(1) - point(0)).dot(point(n - 1) - point(n - 2)) > 0.0;
-}
-
 void resample(const PlaneCurve& curve, const SectionSpacing& spacing, double slide, std::span<Eigen::Vector2d> nodes) {
   const double total = curve.total();
   const Eigen::Vector2d begin = curve(0.0), end = curve(total), middle = 0.5 * (begin + end);
   const Eigen::Vector2d outward(end.y() - begin.y(), begin.x() - end.x());  // as long as the edge
-  const bool closed = (end - begin).norm() < 1e-9 * total, circle = is_round(curve);
+  const bool closed = (end - begin).norm() < 1e-9 * total;
   const int half = spacing.edge / 2, side = (spacing.round - spacing.edge) / 2;
-  const double leading = circle ? 0.5 * total : farthest_from(curve, middle);
-  const double edge = circle ? 0.5 * spacing.rounded_edge : closed ? half * spacing.trailing_edge : 0.0;
+  const double leading = closed ? 0.5 * total : farthest_from(curve, middle), edge = closed ? 0.5 * spacing.rounded_edge : 0.0;
   const auto at = [&](double s) {
     if (!closed) return curve(s);
     s += slide * total;
@@ -65,8 +57,8 @@ void resample(const PlaneCurve& curve, const SectionSpacing& spacing, double sli
       node = 0.5 * (1.0 + u) * begin + 0.5 * (1.0 - u) * end;
   }
   const auto fill = [&](double length, auto put) {
-    const double tail = circle ? spacing.rounded_edge / spacing.edge : spacing.trailing_edge;
-    const double nose = circle ? 0.5 * length / side : spacing.leading_edge;  // a circle has no nose to resolve
+    const double tail = closed ? spacing.rounded_edge / spacing.edge : spacing.trailing_edge;
+    const double nose = closed ? 0.5 * length / side : spacing.leading_edge;  // a circle has no nose to resolve
     const VinokurLaw law(tail * side / length, nose * side / length);
     for (int m = 1; m <= side; ++m) put(m, length * law(double(m) / side));
   };

@@ -27,24 +27,20 @@ void make_curve(PlaneCurve& curve);
 /// Length at which the curve is farthest from `point`: the leading edge, seen from the trailing edge.
 double farthest_from(const PlaneCurve& curve, const Eigen::Vector2d& point);
 
-/// Whether the curve ends where it begins without a corner, as a circle does and a sharp trailing edge does not.
-bool is_round(const PlaneCurve& curve);
-
 /// How many nodes go where, lengths over the chord.
 struct SectionSpacing {
   int round = 120;               ///< cells round the section, even
   int edge = 4;                  ///< of them on the blunt trailing edge, even
   double leading_edge = 0.004;   ///< size of the cells at the leading edge
   double trailing_edge = 0.006;  ///< and of those beside the trailing edge
-  double rounded_edge = 0.12;    ///< length of curve that counts as the edge of a round outline
+  double rounded_edge = 0.12;    ///< length of curve that counts as the edge where the outline is closed
   bool round_off = false;        ///< half a circle on the edge of an open outline, in place of the flat
 };
 
 /// Nodes i = 0 ... round - 1 on an outline that runs from the trailing edge along the pressure side to the leading edge and back
 /// along the suction side: node 0 is the middle of the trailing edge, node round/2 the leading edge. An open outline has a flat
-/// edge between its ends. On one that ends where it begins the edge is a piece of the curve: `rounded_edge` of a round one, as
-/// long as the cells beside it of a sharp one. `slide` shifts the nodes along a round outline, in fractions of its length, and
-/// must be zero of others.
+/// edge between its ends; on a closed one (a circle) the edge is a piece of the curve. `slide` shifts the nodes along a closed
+/// outline, in fractions of its length. `slide` of an open one must be zero.
 void resample(const PlaneCurve& curve, const SectionSpacing& spacing, double slide, std::span<Eigen::Vector2d> nodes);
 
 /// Twice the area inside a closed polygon; positive counter-clockwise.

@@ -411,10 +411,9 @@ scene::Doubts flow_doubts(const FlowOptions& flow, double speed, double window, 
                       "look at its unit: degrees"});
   else
     doubt_stall(doubts, flow);
-  const double area = reference_area(flow), width = flow.generate->kind == "wing" ? flow.generate->span_m : planar_width(flow);
-  if (const double share = area / (length * width); share < 0.05 || share > 20.0)
+  if (const double area = reference_area(flow), share = area / own_area(flow); share < 0.05 || share > 20.0)
     doubts.push_back({"aero.flow.reference_area_m2", fmt::format("{:.4g} m2", area),
-                      fmt::format("about chord times width, {:.3g} m2", length * width), "look at its unit: m2"});
+                      fmt::format("about chord times width, {:.3g} m2", own_area(flow)), "look at its unit: m2"});
   if (flow.motion && flow.motion->oscillates() && std::abs(flow.motion->pitch_amplitude) > 45.0 * radians_per_degree)
     doubts.push_back({"aero.flow.motion.pitch_amplitude_deg",
                       fmt::format("{:.4g} degrees", flow.motion->pitch_amplitude / radians_per_degree), "up to 45 degrees",

@@ -302,8 +302,7 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   return s;
 }
 
-double reference_area(const FlowOptions& o) {
-  if (o.reference_area_m2) return *o.reference_area_m2;
+double own_area(const FlowOptions& o) {
   constexpr double chord = 1.0;
   if (!o.generate) return 1.0;
   if (o.generate->kind == "wing") return chord * o.generate->span_m;

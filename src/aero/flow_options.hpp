@@ -88,11 +88,13 @@ struct FlowLinearOptions {
 /// [aero.flow]
 struct FlowOptions : FlowDomain, FlowSchemes, FlowMarchOptions, FlowLinearOptions {
   bool surfaces = true;
-  std::optional<double> reference_area_m2;  ///< unset: reference_area
+  std::optional<double> reference_area_m2;  ///< unset: own_area
 };
 
-/// Area of the coefficients [m2]: as given, else chord times width or span of a section or wing that the program makes, else 1.
-double reference_area(const FlowOptions& options);
+/// Chord times width or span of a section or wing that the program makes [m2]; 1 of all else.
+double own_area(const FlowOptions& options);
+/// Area of the coefficients [m2]: as given, else own_area.
+inline double reference_area(const FlowOptions& options) { return options.reference_area_m2.value_or(own_area(options)); }
 /// [m], of a planar grid that the program makes or reads.
 inline double planar_width(const FlowOptions& options) { return options.width_m.value_or(1.0); }
 

@@ -14,6 +14,7 @@
 
 #include "runtime/trace/clock.hpp"
 #include "src/aero/actuator.hpp"
+#include "src/aero/flow/sweep_model.hpp"
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_size.hpp"
 #include "src/app/aside.hpp"
@@ -331,9 +332,8 @@ struct FlowTrial {
 /// hundreds of steps.
 constexpr double slower = 2.0;
 double slowest(const aero::FlowOptions& flow) {
-  const std::string& closure = flow.turbulence;
-  if (closure.starts_with("sst") || closure.starts_with("k_omega")) return 25.0;
-  return closure.starts_with("sa") || closure == "ddes" || closure == "des97" ? 8.0 : 4.0;
+  const int equations = aero::model_sweeps(flow.turbulence).equations;
+  return equations == 2 ? 25.0 : equations == 1 ? 8.0 : 4.0;
 }
 
 // A trial goes on for so long [s], for so many pseudo-steps of a steady flow at least (its balance first rises) or windows; it is

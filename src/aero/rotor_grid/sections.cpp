@@ -45,9 +45,14 @@ constexpr double least_edge_cell = 0.1;
 
 }  // namespace
 
+bool is_round(std::span<const Eigen::Vector2d> outline) {
+  const std::size_t n = outline.size();
+  return (outline[n - 1] - outline[0]).norm() < 1e-9 && (outline[1] - outline[0]).dot(outline[n - 1] - outline[n - 2]) > 0.0;
+}
+
 std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const SectionSpacing& spacing, double slide) {
   std::vector<Eigen::Vector2d> outline = aerofoil.outline;
-  if (!is_round(OwnedCurve(outline).curve)) open_edge(outline, least_edge_cell * spacing.edge * spacing.trailing_edge);
+  if (!is_round(outline)) open_edge(outline, least_edge_cell * spacing.edge * spacing.trailing_edge);
   const OwnedCurve owned(outline);
   std::vector<Eigen::Vector2d> nodes(std::size_t(spacing.round));
   resample(owned.curve, spacing, slide, nodes);
@@ -56,7 +61,7 @@ std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const Se
 
 Sections::Sections(std::span<const Aerofoil> aerofoils, const SectionSpacing& spacing)
     : spacing_(spacing), root_(aerofoils.back()) {
-  round_root_ = is_round(OwnedCurve(root_.outline).curve);
+  round_root_ = is_round(root_.outline);
   const std::size_t n = aerofoils.size(), round = std::size_t(spacing.round);
   for (const Aerofoil& a : aerofoils) {
     thickness_.push_back(a.thickness);

@@ -14,6 +14,8 @@
 
 namespace spindrift::aero {
 
+/// Whether an outline over the chord ends where it begins without a corner, as a circle does and a sharp trailing edge does not.
+bool is_round(std::span<const Eigen::Vector2d> outline);
 /// Nodes of one outline, spacing as in `resample`. Chord 1 from the leading edge at (0, 0) to the trailing edge at (1, 0). An
 /// edge that is too thin for the cells on it, or sharp, is opened to a tenth of the cells beside it for each.
 std::vector<Eigen::Vector2d> resample_outline(const Aerofoil& aerofoil, const SectionSpacing& spacing, double slide = 0.0);

@@ -63,31 +63,6 @@ TEST_CASE("a rounded trailing edge is half a circle that meets the outline", "[g
   CHECK(nodes[0].x() > middle.x());
 }
 
-TEST_CASE("a sharp outline is no circle: nose and trailing edge have their own spacing", "[grid][fast]") {
-  constexpr int n = 100;
-  Outline o(0.24, 1.0, n);
-  for (int m = -n; m <= n; ++m) {
-    const double x = 0.5 * (1.0 - std::cos(pi * m / n));
-    o.store[1][std::size_t(m + n)] = x, o.store[2][std::size_t(m + n)] = (m < 0 ? -0.3 : 0.3) * std::sqrt(x) * (1.0 - x);
-  }
-  make_curve(o.curve);
-  CHECK_FALSE(is_round(o.curve));
-  CHECK_FALSE(is_round(Outline(0.24, 0.97, 60).curve));
-  CHECK(is_round(Outline(1.0, 1.0, 60).curve));
-  const auto edge = GENERATE(2, 4);
-  const SectionSpacing spacing{.round = 80, .edge = edge, .leading_edge = 0.006, .trailing_edge = 0.009};
-  std::vector<Vector2d> nodes(80);
-  resample(o.curve, spacing, 0.0, nodes);
-  CHECK((nodes[0] - Vector2d(1, 0)).norm() < 1e-12);
-  CHECK(nodes[40].norm() < 1e-4);
-  CHECK(signed_area(nodes) < 0.0);
-  for (const int i : {0, 1, 2, 77, 78, 79})
-    CHECK((nodes[std::size_t((i + 1) % 80)] - nodes[std::size_t(i)]).norm() == Approx(0.009).epsilon(0.3));
-  CHECK((nodes[41] - nodes[40]).norm() == Approx(0.006).epsilon(0.2));
-  for (int i = 1; i < 40; ++i)
-    CHECK((nodes[std::size_t(i)] - Vector2d(nodes[std::size_t(80 - i)].x(), -nodes[std::size_t(80 - i)].y())).norm() < 1e-6);
-}
-
 TEST_CASE("nodes slide along a closed outline and stay on it", "[grid][fast]") {
   Outline o(1.0, 1.0, 200);
   const SectionSpacing spacing{.round = 80, .edge = 2};

@@ -10,10 +10,12 @@
 #include <cmath>
 #include <cstring>
 
+#include "kernels/base/constants.hpp"
 #include "kernels/base/failure.hpp"
 #include "src/aero/grid/checks.hpp"
 #include "src/aero/rotor_grid/coarsen.hpp"
 #include "src/aero/rotor_grid/options.hpp"
+#include "src/aero/rotor_grid/sections.hpp"
 #include "tests/src/aero/rotor_grid/example.hpp"
 
 using namespace spindrift;
@@ -91,6 +93,33 @@ Turbine with_thinner_edges(double share) {
   return turbine;
 }
 }  // namespace
+
+TEST_CASE("a sharp outline is no circle: nose and trailing edge have their own spacing", "[rotor_grid][fast]") {
+  constexpr int n = 100;
+  Aerofoil sharp, circle, blunt;
+  for (int m = n; m >= -n; --m) {  // the suction side first
+    const double a = pi * m / n, x = 0.5 * (1.0 - std::cos(a));
+    sharp.outline.emplace_back(x, (m < 0 ? -0.3 : 0.3) * std::sqrt(x) * (1.0 - x));
+    circle.outline.emplace_back(x, 0.5 * std::sin(a));
+    if (x < 0.97) blunt.outline.emplace_back(x, 0.12 * std::sin(a));
+  }
+  CHECK_FALSE(is_round(sharp.outline));
+  CHECK_FALSE(is_round(blunt.outline));
+  CHECK(is_round(circle.outline));
+  const auto edge = GENERATE(2, 4);
+  const SectionSpacing spacing{.round = 80, .edge = edge, .leading_edge = 0.006, .trailing_edge = 0.009};
+  const std::vector<Eigen::Vector2d> nodes = resample_outline(sharp, spacing);
+  const auto cell = [&](int i) { return (nodes[std::size_t((i + 1) % 80)] - nodes[std::size_t((i + 80) % 80)]).norm(); };
+  CHECK((nodes[0] - Eigen::Vector2d(1, 0)).norm() < 1e-12);
+  CHECK(nodes[40].norm() < 1e-4);
+  CHECK(signed_area(nodes) < 0.0);
+  for (int i = -edge / 2; i < edge / 2; ++i) CHECK(cell(i) == Approx(0.0009).epsilon(1e-6));
+  for (const int i : {edge / 2, -edge / 2 - 1}) CHECK(cell(i) == Approx(0.009).epsilon(0.3));
+  CHECK(cell(40) == Approx(0.006).epsilon(0.2));
+  for (int i = 1; i < 40; ++i)
+    CHECK((nodes[std::size_t(i)] - Eigen::Vector2d(nodes[std::size_t(80 - i)].x(), -nodes[std::size_t(80 - i)].y())).norm() <
+          1e-6);
+}
 
 TEST_CASE("thin and sharp trailing edges are opened to what their cells can be", "[rotor_grid][fast]") {
   const double share = GENERATE(0.0, 0.1);
