@@ -136,6 +136,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
   Json counts = Json::object();
   for (const auto& [name, count] : summary.counts) counts[name] = count;
   json["counts"] = std::move(counts);
+  if (summary.sound_speed_m_s > 0.0) json["sound_speed_m_s"] = summary.sound_speed_m_s;
   json["wall_seconds"] = summary.wall_seconds;
   json["core_seconds"] = summary.wall_seconds * summary.ranks * summary.threads;
   json["processor_seconds"] = summary.processor_seconds;

@@ -50,6 +50,7 @@ struct Summary {
   bool pseudo_steps = false;                              ///< a march to a steady state: its times count them
   int restarts = 0;
   std::vector<std::pair<std::string, std::int64_t>> counts;  ///< windows, steps, coupling_iterations, ... in the order shown
+  double sound_speed_m_s = 0;                                ///< of a sea of particles; 0: there is none
   double wall_seconds = 0;
   double processor_seconds = 0;  ///< of all threads of all ranks, from reading the scene to the end, whatever else ran beside it
   double peak_memory_bytes = 0;  ///< of all ranks together, each at its largest

@@ -9,32 +9,12 @@ from geometry import Scene3d
 
 TRANSITS = 2.0   # there and back
 LEAST_ROWS, LARGEST_SHARE = 3.0, 0.5   # of the time of a mean: rows in it; of the run
-SOUND_OVER_WAVES, SOUND_OVER_ENTRY = 10.0, 20.0   # defaults of the program: src/sea/particle_plan.cpp
 
 
 def launched(run):
     """Bodies that begin with a speed."""
     given = run.scene.get("bodies") or {}
     return [body for body in quantities.bodies_of(run.columns) if any((given.get(body) or {}).get("velocity_m_s") or [])]
-
-
-def _number(run, section, key, otherwise):
-    found = (run.scene.get(section) or {}).get(key)
-    return found if isinstance(found, (int, float)) else otherwise
-
-
-def sound_m_s(run):
-    """Of the sea of particles; nan where the scene does not tell. Bodies enter with the largest speed that they have."""
-    particles = (run.scene.get("sea") or {}).get("particles") or {}
-    if isinstance(given := particles.get("sound_speed_m_s"), (int, float)):
-        return given
-    waves = math.sqrt(_number(run, "environment", "gravity_m_s2", 9.81) * _number(run, "environment", "water_depth_m", math.nan))
-    if isinstance(factor := particles.get("sound_speed_factor"), (int, float)):
-        return factor * waves
-    entry = [np.linalg.norm((run.scene["bodies"][body])["velocity_m_s"]) for body in launched(run)]
-    columns = [[f"{body}.v{axis}_m_s" for axis in "xyz"] for body in launched(run)]
-    entry += [float(np.sqrt(sum(run.column(name) ** 2 for name in names)).max()) for names in columns if set(names) <= set(run.columns)]
-    return max(SOUND_OVER_WAVES * waves, SOUND_OVER_ENTRY * max(entry, default=0.0))
 
 
 def mean_over_s(run, body):
@@ -44,8 +24,8 @@ def mean_over_s(run, body):
     sizes = np.ptp(points, axis=0) if len(points) else []
     if str(((run.scene.get("sea") or {}).get("particles") or {}).get("dimensions")) == "2":
         sizes = sizes[::2]   # the width of a plane sea is no way of sound
-    way = max(sizes, default=_number(run, "environment", "water_depth_m", math.nan))
-    over, whole = TRANSITS * way / sound_m_s(run), run.time[-1] - run.time[0] if len(run.time) else 0.0
+    way = max(sizes, default=(run.scene.get("environment") or {}).get("water_depth_m", math.nan))
+    over, whole = TRANSITS * way / (run.summary.get("sound_speed_m_s") or math.nan), run.time[-1] - run.time[0] if len(run.time) else 0.0
     enough = len(run.time) > 1 and over >= LEAST_ROWS * whole / (len(run.time) - 1) and over <= LARGEST_SHARE * whole
     return float(over) if enough else None
 

@@ -374,6 +374,7 @@ std::vector<std::unique_ptr<Output>> SystemSimulation::outputs(const io::RunDire
 
 void SystemSimulation::summarise(io::Summary& summary, runtime::Ledger& ledger) {
   summary.counts.emplace_back("steps", steps_);
+  if (const auto* plan = floating_.particle_plan()) summary.sound_speed_m_s = plan->parameters.eos.c0;
   if (floating_.has_interface()) {
     const coupling::CoupledWindow::Totals& totals = window_.totals();
     summary.counts.emplace_back("coupling_evaluations", totals.evaluations);

@@ -1,6 +1,7 @@
 """Bodies in a sea of two dimensions stay in its plane whatever pulls them out of it: what holds them has columns, bits are those of a restart and of ranks,
 and their work on the water is the water's on them.
 Usage: planar_sea_test.py SPINDRIFT [TEST...] SPDX-License-Identifier: Apache-2.0"""
+import json
 import unittest
 
 import h5py
@@ -83,6 +84,8 @@ class Planar(Folder):
             self.assertLess(abs(found[f"box.{lost}"]).max(), 1e-12, lost)
         self.assertGreater(abs(found["box.z_m"] - found["box.z_m"][0]).max(), 0.005)
         self.assertAlmostEqual(abs(found["plane_box.fy_N"][-1]), 50.0, delta=0.5)
+        sound = json.loads((self.path / "across/summary.json").read_text())["sound_speed_m_s"]  # by which the report takes means of impacts
+        self.assertAlmostEqual(sound, 10.0 * (9.81 * 0.6) ** 0.5, delta=1e-9)
         for part in ("one", "two"):
             self.assertEqual((self.path / "across/history.csv").read_bytes(), self.again(part), part)
         made = {part: self.made_J(part) for part in ("across", "one", "two")}  # what a later window is judged by

@@ -428,12 +428,12 @@ class PartsTest(unittest.TestCase):
         t = 0.0005 * np.arange(61)
         load = 27e3 * np.sin(np.pi * t / 0.05) + 40e3 * np.sin(2 * np.pi * t / 0.0023)   # a similarity solution's and the ringing of the water
         table = {"time_s": t, "wedge.x_m": 0 * t, "wedge.z_m": -5.0 * t, "wedge.vx_m_s": 0 * t, "wedge.vy_m_s": 0 * t, "wedge.vz_m_s": -5.0 + 0 * t, "wedge.sea.fz_N": load}
-        scene = ("[environment]\nwater_depth_m = 1.0\n[sea]\nmodel = 'sph'\n[sea.particles]\ndimensions = '{}'\n{}\n[bodies.wedge]\nmass_kg = 1.0\nvelocity_m_s = [0, 0, -5.0]\n"
+        scene = ("[environment]\nwater_depth_m = 1.0\n[sea]\nmodel = 'sph'\n[sea.particles]\ndimensions = '{}'\n[bodies.wedge]\nmass_kg = 1.0\nvelocity_m_s = [0, 0, -5.0]\n"
                  "[[bodies.wedge.boxes]]\ncentre_m = [0.0, 0.0, 0.0]\nsize_m = [0.5, 0.75, 0.2]\n")
         with tempfile.TemporaryDirectory() as folder:
-            for dimensions, sound, over, said in (("2", "", 0.01, "10 ms"), ("2", "sound_speed_m_s = 200.0", 0.005, "5.0 ms"), ("3", "", 0.015, "15 ms"),
-                                                  ("2", "sound_speed_factor = 40.0", 1.0 / (40.0 * 9.81 ** 0.5), "8.0 ms"), ("2", "sound_speed_m_s = 1500.0", None, "")):
-                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format(dimensions, sound), ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
+            for dimensions, sound, over, said in (("2", 100.0, 0.01, "10 ms"), ("2", 200.0, 0.005, "5.0 ms"), ("3", 100.0, 0.015, "15 ms"),
+                                                  ("2", 40.0 * 9.81 ** 0.5, 1.0 / (40.0 * 9.81 ** 0.5), "8.0 ms"), ("2", 1500.0, None, "")):
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format(dimensions), sound_speed_m_s=sound, ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
                 run = RunData(pathlib.Path(folder))
                 (text, value, unit), = [answer for answer in verdict.answers(run) if answer[0].startswith("largest load")]
                 if over is None:   # less than a few rows
@@ -442,7 +442,7 @@ class PartsTest(unittest.TestCase):
                 self.assertEqual((text, unit), (f"largest load of the water, up, mean over {said}", "kN"))
                 whole = round(over / 0.0023)
                 self.assertAlmostEqual(float(value), 26.0, delta=1.0 + 40.0 / (np.pi * whole))
-            synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format("2", ""), ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
+            synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=scene.format("2"), sound_speed_m_s=100.0, ranges={"end": {"from_s": 0.02, "to_s": 0.03}})
             run = RunData(pathlib.Path(folder))
             largest = next(value for text, value, _ in verdict.answers(run) if text.startswith("largest load"))
             self.assertRegex(str(page.key_figures(run)), rf"wedge load up, mean of 10 ms.*{largest}</td>")
