@@ -117,9 +117,10 @@ class Forecasts(Folder):
             self.within(float(number) * end, sum(steps[1:]) / len(steps[1:]) * counts["windows"], 2.0)
         else:
             self.within(float(number), len(steps))
-            if slow := re.search(r"up to (\S+) where that slows down", said):
-                self.assertGreater(float(slow.group(1)), 1.5 * float(number))
-                self.assertLessEqual(len(steps), float(slow.group(1)))
+            if "until it has settled at its rate" in said:
+                slow = float(re.search(r"at its rate, up to (\S+) where that slows down", said).group(1))
+                self.assertGreater(slow, 1.5 * float(number))
+                self.assertLessEqual(len(steps), slow)
 
     def particles(self, said, counts, end):
         self.assertEqual(int(re.search(r"^  particles +(\d+) \(", said, re.M).group(1)), counts["particles"])

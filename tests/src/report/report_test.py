@@ -542,6 +542,14 @@ class PartsTest(unittest.TestCase):
                 if change:
                     self.assertIn("over the last 20 pseudo-steps lift coefficient by 4.8 % changed", found.text)
 
+    def test_a_section_without_lift_has_settled_when_its_drag_has(self):
+        n = np.arange(1.0, 101.0)
+        for lift, level in ((1e-7 * np.cos(n), "good"), (1e-3 * np.cos(n), "warn")):
+            with tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": n, "flow.density_residual": 10.0 ** (-n / 20), "flow.lift_coefficient": lift, "flow.drag_coefficient": 0.008 + 0 * n}
+                synthetic_run.write(pathlib.Path(folder), table=table, scene="[aero]\nmodel = 'blade_resolved'\n[aero.flow]\ntime = 'steady'\n", log="")
+                self.assertEqual({c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"].level, level)
+
     def test_a_march_that_ends_above_its_first_flux_balance_is_not_green(self):
         n = np.arange(1.0, 101.0)
         for last, level in ((80.0, "bad"), (0.5, "warn"), (1e-4, "good")):
