@@ -369,15 +369,11 @@ std::vector<OptionProblem> particle_problems(const SeaOptions& o, const WavesOpt
       if (t.symmetric() && sensor.low_m[1] < t.y_m[0])
         wrong(key, fmt::format("reaches y = {} m, beyond the plane of symmetry (sea.tank.sides_y) at {} m", sensor.low_m[1],
                                t.y_m[0]));
-      else if (sph::points_of_surface(body->shapes, low, high, d, cut).empty())
-        wrong(key, "has nothing of the surface of " + sensor.body + " between low_m and high_m, where the scene describes it");
-      else if (laid_out && std::ranges::none_of(sph::fill_body(body->shapes, edge_of_cells, cut), [&](const Eigen::Vector3d& x) {
-                 return (planar || (x[1] >= low[1] && x[1] <= high[1])) && x[0] >= low[0] && x[0] <= high[0] && x[2] >= low[2] &&
-                        x[2] <= high[2];
-               }))
-        wrong(key, fmt::format("has no particle of {}, whose outermost are half a spacing of {} m inside its surface: the force "
-                               "would be none; make it reach deeper",
-                               sensor.body, d));
+      else if (sph::points_of_surface(sph::fill_body(body->shapes, edge_of_cells, cut), body->shapes, low, high, d, cut).empty())
+        wrong(key,
+              fmt::format("has nothing of the surface of {} between low_m and high_m, where the scene describes it, or a strip "
+                          "narrower than the rows of its particles, {} m",
+                          sensor.body, d));
       continue;
     }
     int flat = 0;

@@ -45,31 +45,30 @@ double body_step_limit(const ParticleBody& body, const sph::TankCount::Body& of,
   return 0.5 * sph::step_limit_body(relative_weight, solid.layers(coarse, dim) * coarse / p.spacing, p.spacing, p.eos.c0);
 }
 
-/// What a sensor of the scene reads; `reach` [m]: of the kernel.
+/// What a sensor of the scene reads.
 template <int dim, class Real>
-sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, double reach,
+sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, const sph::SeaState<dim, Real>& sea,
                     const ParticleSolids<dim, Real>& solids) {
   const sph::Cut cut = plan.cut();
   const double d = plan.options.spacing_m;
-  sph::Patch patch{.owner = sph::wall_owner, .low = sensor.low_m, .high = sensor.high_m, .mean_over = sensor.mean_over_s};
-  if (sensor.body.empty()) {
-    patch.points = sph::points_of_rectangle(patch.low, patch.high, 0.5 * d, cut);
-    const sph::TankPlan::Block box = sph::particles_of_rectangle(patch.low, patch.high, reach);
-    patch.low = box.low, patch.high = box.high;
-    if (plan.paddle && sensor.low_m[0] == plan.tank.x[0] && sensor.high_m[0] == plan.tank.x[0] &&
-        sensor.high_m[2] > plan.paddle->paddle().hinge) {  // it goes with the paddle
-      const Eigen::Vector3d origin = plan.paddle->at_rest().position;
-      patch.owner = solids.owner_of_paddle();
-      patch.low -= origin, patch.high -= origin;
-      for (Eigen::Vector3d& point : patch.points) point -= origin;
-    }
+  const auto solid = [&](std::uint16_t owner) -> const sph::Solid& {
+    return *std::ranges::find(sea.solids, owner, &sph::Solid::owner);
+  };
+  sph::Patch patch;
+  if (!sensor.body.empty()) {
+    const auto named = std::ranges::find(plan.bodies, sensor.body, &ParticleBody::name);
+    const Eigen::Vector3d& origin = named->described.position;
+    patch = sph::patch_of_body(solid(solids.owner(std::size_t(named - plan.bodies.begin()))), named->shapes,
+                               sensor.low_m - origin, sensor.high_m - origin, d, cut);
   } else {
-    const auto named = std::find_if(plan.bodies.begin(), plan.bodies.end(), [&](const auto& b) { return b.name == sensor.body; });
-    const Motion& described = named->described;
-    patch.owner = solids.owner(std::size_t(named - plan.bodies.begin()));
-    patch.low -= described.position, patch.high -= described.position;
-    patch.points = sph::points_of_surface(named->shapes, patch.low, patch.high, d, cut);
+    const sph::TankPlan::Block box = sph::particles_of_rectangle(sensor.low_m, sensor.high_m, sea.p.reach());
+    patch = {.owner = sph::wall_owner, .low = box.low, .high = box.high};
+    patch.points = sph::points_of_rectangle(sensor.low_m, sensor.high_m, 0.5 * d, cut);
+    if (plan.paddle && sensor.low_m[0] == plan.tank.x[0] && sensor.high_m[0] == plan.tank.x[0] &&
+        sensor.high_m[2] > plan.paddle->paddle().hinge)
+      sph::put_on_paddle(patch, solid(solids.owner_of_paddle()), plan.paddle->at_rest().position, cut);
   }
+  patch.mean_over = sensor.mean_over_s;
   return patch;
 }
 
@@ -109,7 +108,7 @@ class Sea final : public ParticleSea {
           },
           [&](const sph::SeedPart<dim>& part) { return part.first < mine.last && part.last > mine.first; });
     });
-    for (const SensorOptions& sensor : plan.sensors) sea_.add_sensor(patch_of(plan, sensor, parameters.reach(), solids_));
+    for (const SensorOptions& sensor : plan.sensors) sea_.add_sensor(patch_of(plan, sensor, sea_.state(), solids_));
   }
 
   void place(double t, std::span<const Motion> bodies) override { solids_.place(t, bodies); }

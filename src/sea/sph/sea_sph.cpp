@@ -139,6 +139,9 @@ void SeaSph<dim, Real>::add_body(std::uint16_t owner, const Motion& motion, doub
 
 template <int dim, class Real>
 void SeaSph<dim, Real>::add_sensor(Patch patch) {
+  if (const Solid* const solid = body_of(patch, s_.solids); solid && patch.counted.size() != solid->local.size())
+    throw std::invalid_argument("sph: a sensor on solid " + std::to_string(patch.owner) +
+                                " must say of each particle whether it counts");
   s_.records.emplace_back(patch.mean_over);
   s_.patches.push_back(std::move(patch));
   recorded_.forget();

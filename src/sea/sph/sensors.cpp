@@ -23,30 +23,60 @@ TankPlan::Block particles_of_rectangle(const Eigen::Vector3d& low, const Eigen::
   return box;
 }
 
-Points points_of_surface(std::span<const BodyShape> shapes, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
-                         double spacing, Cut cut) {
-  // The outermost particles, each moved along the gradient of the distance to where that is zero.
-  Points points;
+namespace {
+
+/// Where the gradient of the distance leads to from a point: on the surface, but from some places amid a body.
+Eigen::Vector3d nearest_of_surface(std::span<const BodyShape> shapes, Eigen::Vector3d x, double spacing, Cut cut) {
   const double step = 1e-4 * spacing;
-  for (Eigen::Vector3d x : fill_body(shapes, spacing, cut)) {
-    if (signed_distance(shapes, x, cut) < -spacing) continue;
-    double off = 0.0;
-    for (int turn = 0; turn < 4; ++turn) {  // one is enough but at edges
-      off = signed_distance(shapes, x, cut);
+  constexpr double level = 0.1;           // of a gradient that is 1 but where several faces are equally near
+  for (int turn = 0; turn < 4; ++turn) {  // one is enough but at edges
+    const double off = signed_distance(shapes, x, cut);
+    const auto slope_between = [&](double behind, double ahead) {
       Eigen::Vector3d slope = Eigen::Vector3d::Zero();
       for (int k = 0; k < 3; ++k) {
         if (cut == Cut::plane && k == 1) continue;
-        Eigen::Vector3d beside = x;
-        beside[k] += step;
-        slope[k] = (signed_distance(shapes, beside, cut) - off) / step;
+        Eigen::Vector3d low = x, high = x;
+        low[k] += behind, high[k] += ahead;
+        slope[k] = (signed_distance(shapes, high, cut) - signed_distance(shapes, low, cut)) / (ahead - behind);
       }
-      if (slope.squaredNorm() > 0.0) x -= off * slope / slope.squaredNorm();
-    }
-    bool inside = std::abs(off) < 0.1 * spacing;
-    for (int k = 0; k < 3; ++k) inside = inside && ((cut == Cut::plane && k == 1) || (x[k] >= low[k] && x[k] <= high[k]));
-    if (inside) points.push_back(x);
+      return slope;
+    };
+    Eigen::Vector3d slope = slope_between(-step, step);
+    if (slope.norm() < level) slope = slope_between(0.0, step);  // midway between two faces: to either
+    if (slope.norm() < level) break;
+    x -= off * slope / slope.squaredNorm();
+  }
+  return x;
+}
+
+}  // namespace
+
+Points points_of_surface(const Points& particles, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
+                         const Eigen::Vector3d& high, double spacing, Cut cut) {
+  Points points;
+  for (const Eigen::Vector3d& x : particles) {
+    if (signed_distance(shapes, x, cut) < -spacing) continue;
+    const Eigen::Vector3d point = nearest_of_surface(shapes, x, spacing, cut);
+    if (std::abs(signed_distance(shapes, point, cut)) < 0.1 * spacing && in_box(point, low, high, cut == Cut::plane))
+      points.push_back(point);
   }
   return points;
+}
+
+Patch patch_of_body(const Solid& solid, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
+                    const Eigen::Vector3d& high, double spacing, Cut cut) {
+  Patch patch{.owner = solid.owner, .low = low, .high = high};
+  patch.points = points_of_surface(solid.local, shapes, low, high, spacing, cut);
+  for (const Eigen::Vector3d& x : solid.local)
+    patch.counted.push_back(in_box(nearest_of_surface(shapes, x, spacing, cut), low, high, cut == Cut::plane));
+  return patch;
+}
+
+void put_on_paddle(Patch& patch, const Solid& paddle, const Eigen::Vector3d& origin, Cut cut) {
+  patch.owner = paddle.owner;
+  patch.low -= origin, patch.high -= origin;
+  for (Eigen::Vector3d& point : patch.points) point -= origin;
+  for (const Eigen::Vector3d& x : paddle.local) patch.counted.push_back(in_box(x, patch.low, patch.high, cut == Cut::plane));
 }
 
 }  // namespace spindrift::sph

@@ -25,16 +25,29 @@ struct Patch {
   std::uint16_t owner = 0;    ///< of the particles that the force is counted on
   Eigen::Vector3d low, high;  ///< the box they are in: body axes from the centre of mass, of walls the earth's [m]
   Points points;              ///< of the surface, likewise
+  std::vector<char> counted;  ///< of solids: whether the force on a particle counts, by its identity from the solid's first on
   double mean_over = 0.0;     ///< [s]
 };
 
+/// Of the box with its faces; in a 2-D scene whatever the y.
+inline bool in_box(const Eigen::Vector3d& x, const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool planar) {
+  for (int k = 0; k < 3; ++k)
+    if (!(planar && k == 1) && (x[k] < low[k] || x[k] > high[k])) return false;
+  return true;
+}
 /// Points a spacing apart or less, of the rectangle that a box without extent along one axis is.
 Points points_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double spacing, Cut cut);
 /// The box of the particles of the wall that such a rectangle is on: as deep on either side of it as water feels them.
 TankPlan::Block particles_of_rectangle(const Eigen::Vector3d& low, const Eigen::Vector3d& high, double reach);
-/// Points of the surface of a union of shapes inside a box, about a spacing apart; body axes.
-Points points_of_surface(std::span<const BodyShape> shapes, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
-                         double spacing, Cut cut);
+/// Points of the surface of a union of shapes inside a box, under its outermost particles; body axes.
+Points points_of_surface(const Points& particles, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
+                         const Eigen::Vector3d& high, double spacing, Cut cut);
+/// The patch of a body's surface inside a box of body axes. Particles count by the point of the surface nearest to them: water
+/// presses on several rows of particles, and a thin box along the surface holds one of them or none.
+Patch patch_of_body(const Solid& solid, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
+                    const Eigen::Vector3d& high, double spacing, Cut cut);
+/// A patch of the wall goes with the paddle that stands there, whose centre is at `origin`.
+void put_on_paddle(Patch& patch, const Solid& paddle, const Eigen::Vector3d& origin, Cut cut);
 
 /// What a patch reads.
 struct PatchReading {
@@ -173,11 +186,9 @@ void read_patch(const Store<dim, Real>& store, const Parameters& p, const Domain
   for_clusters_of(store, patch.owner, group, [&](std::size_t cluster) {
     const double own_mass = mass * store.weight_of(cluster);
     for (int lane = 0; lane < cluster_size && store.id[cluster * cluster_size + lane] != no_particle; ++lane) {
-      const Eigen::Vector3d x =
-          body ? body->local[store.id[cluster * cluster_size + lane] - body->first_id] : to_earth<dim>(place(cluster, lane));
-      bool inside = true;
-      for (int k = 0; k < 3; ++k) inside = inside && ((dim == 2 && k == 1) || (x[k] >= patch.low[k] && x[k] <= patch.high[k]));
-      if (!inside) continue;
+      const bool counts = body ? patch.counted[store.id[cluster * cluster_size + lane] - body->first_id] != 0
+                               : in_box(to_earth<dim>(place(cluster, lane)), patch.low, patch.high, dim == 2);
+      if (!counts) continue;
       std::array<double, dim> f;
       for (int k = 0; k < dim; ++k) f[k] = own_mass * mass * double(store.sums_of(cluster)[k * cluster_size + lane]);
       const Eigen::Vector3d on = to_earth<dim>(f);

@@ -77,12 +77,12 @@ TEST_CASE("a sensor that no particle of a wall or body is on is refused", "[sea]
     s.sea.sensors = {sensor({0, 0.5, -0.5}, {0, 0.7, -0.3})};
     CHECK_THAT(s.refused(), Contains("sea.sensors[0] is on no wall"));
   }
-  SECTION("the face of a body is half a spacing before its particles") {
+  SECTION("a box along a face of a body may be as thin as wanted, but not lie between two rows") {
     s.bodies = {{.name = "box", .mass = 100.0, .described = {.position = {2, 1, 0}}, .shapes = {Box{.size = {1, 1, 1}}}}};
     s.sea.sensors = {sensor({1.4, 0.4, -0.51}, {2.6, 1.6, -0.49}, "box")};
-    CHECK_THAT(s.refused(), Contains("sea.sensors[0] has no particle of box"));
-    s.sea.sensors = {sensor({1.4, 0.4, -0.51}, {2.6, 1.6, -0.4}, "box")};
     CHECK(s.refused() == "");
+    s.sea.sensors = {sensor({1.99, 0.4, -0.51}, {2.01, 1.6, -0.49}, "box")};
+    CHECK_THAT(s.refused(), Contains("sea.sensors[0] has nothing of the surface of box") && Contains("narrower than the rows"));
   }
   SECTION("a flap is one wall, what is under its hinge another") {
     s = with_waves(particle_tank(true));

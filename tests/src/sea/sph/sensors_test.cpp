@@ -15,14 +15,15 @@ TEST_CASE("points of a sensor lie on the surface inside its box, about a spacing
                                       Cylinder{.start = {0, 0, 0}, .end = {0, 0, 2}, .start_radius = 0.5, .end_radius = 0.5}};
   const Eigen::Vector3d low(-2, -2, -2), high(2, 2, 0.5);
   const double d = 0.1;
-  const Points points = points_of_surface(shapes, low, high, d, Cut::space);
+  const Points particles = fill_body(shapes, d, Cut::space);
+  const Points points = points_of_surface(particles, shapes, low, high, d, Cut::space);
   for (const Eigen::Vector3d& x : points) {
     CHECK(std::abs(signed_distance(shapes, x, Cut::space)) < 1e-3 * d);
     CHECK(x[2] <= 0.5);
   }
   const double area = 2.0 * pi * 1.5;  // of the cap under z = 0.5
   CHECK(double(points.size()) * d * d == Approx(area).epsilon(0.15));
-  CHECK(points_of_surface(shapes, {3, 3, 3}, {4, 4, 4}, d, Cut::space).empty());
+  CHECK(points_of_surface(particles, shapes, {3, 3, 3}, {4, 4, 4}, d, Cut::space).empty());
   const Points rectangle = points_of_rectangle({0, 1, 0}, {0.4, 1, 0.3}, d, Cut::space);
   CHECK(rectangle.size() == 12);
   for (const Eigen::Vector3d& x : rectangle) CHECK(x[1] == 1.0);
@@ -66,9 +67,10 @@ TEST_CASE("patches in still water read the pressure at their middle within 1 % o
   sea.add_sensor(side), sea.add_sensor(bed);
   for (const auto& [low, high] : {std::pair{-9.0, 0.0}, {0.0, 9.0}}) {
     const Eigen::Vector3d from(-9, -9, low), to(9, 9, high);
-    sea.add_sensor(
-        {.owner = owner, .low = from, .high = to, .points = points_of_surface(std::vector{hull}, from, to, 0.05, Cut::plane)});
+    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
   }
+  const Eigen::Vector3d from(-0.2, -9, -0.31), to(0.2, 9, -0.29);  // thinner than a row of particles, away from the edges
+  sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
   sea.set_bodies([](const HalfStep&, std::span<const Wrench>, std::span<Motion>) {});
   sea.set_step_control({.steps_per_check = 1});
   sea.advance(0.6);
@@ -80,6 +82,9 @@ TEST_CASE("patches in still water read the pressure at their middle within 1 % o
   CHECK(read(1).force[2] == Approx(-weight * 0.4).epsilon(0.03));
   // Of the lower half of the box: its bottom at a depth of 0.4 m, its sides at 0.25 m.
   CHECK(read(2).pressure == Approx(0.325 * weight).margin(0.03 * weight));
+  // Of the bottom alone the whole force on its area, though the box holds none of its particles.
+  CHECK(read(4).pressure == Approx(0.4 * weight).margin(0.02 * weight));
+  CHECK(read(4).force[2] == Approx(0.4 * weight * 0.4).epsilon(0.03));
   const Wrench load = sea.load_on(owner, Eigen::Vector3d::Zero());
   CHECK(read(2).force[2] + read(3).force[2] == Approx(load.force[2]).epsilon(1e-9));
   CHECK(read(2).force[0] + read(3).force[0] == Approx(load.force[0]).margin(1e-6 * weight));
@@ -97,10 +102,7 @@ TEST_CASE("patches share out the load on a body whose particles have its own mas
   sea.add_body(tank.bodies[0], plan.bodies[0].motion, 0.4 * double(tank.body_points[0].size()) * p.mass(2));
   for (const auto& [low, high] : {std::pair{-9.0, 0.0}, {0.0, 9.0}}) {
     const Eigen::Vector3d from(-9, -9, low), to(9, 9, high);
-    sea.add_sensor({.owner = tank.bodies[0],
-                    .low = from,
-                    .high = to,
-                    .points = points_of_surface(std::vector{hull}, from, to, p.spacing, Cut::plane)});
+    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
   }
   sea.evaluate();
   read_sensors(sea.state(), MPI_COMM_SELF);

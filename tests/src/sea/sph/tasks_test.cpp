@@ -158,7 +158,12 @@ TEST_CASE("steps checked some at a time have the bits of the same steps checked 
     SeaSph<3, float> sea(scene.p, scene.domain, scene.seeds, {.threads = 1});
     sea.add_body(2, scene.box);
     sea.set_bodies(falling(6.0));
-    sea.add_sensor({.owner = 2, .low = {-1, -1, -1}, .high = {3, 3, 3}, .points = {{0, 0, -0.2}}, .mean_over = 1.0});
+    sea.add_sensor({.owner = 2,
+                    .low = {-1, -1, -1},
+                    .high = {3, 3, 3},
+                    .points = {{0, 0, -0.2}},
+                    .counted = std::vector<char>(sea.state().solids.back().local.size(), 1),
+                    .mean_over = 1.0});
     sea.set_step_control(std::move(step_control));
     sea.advance(window);
     CHECK(sea.state().work.steps == 6);
