@@ -203,6 +203,26 @@ void doubt_tank(scene::Doubts& doubts, const SeaOptions& sea, const WavesOptions
   }
 }
 
+/// Boxes of water that reach out of the tank, of which only what is inside is made.
+void doubt_boxes_of_water(scene::Doubts& doubts, const SeaOptions& sea, const SeaEnvironment& e) {
+  if (!sea.tank) return;
+  const TankOptions& t = *sea.tank;
+  const std::array<std::array<double, 2>, 3> inside{t.x_m, t.y_m, {-e.water_depth, t.top_m}};
+  for (std::size_t n = 0; n < sea.water.size(); ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == 1 && sea.particles->planar()) continue;
+      const double low = sea.water[n].low_m[int(axis)], high = sea.water[n].high_m[int(axis)];
+      const auto [least, most] = inside[axis];
+      const double near = 0.5 * sea.particles->spacing_m;
+      const bool under = low < least - near && !(axis == 1 && t.symmetric()), over = high > most + near;
+      if (under || over)
+        doubts.push_back(
+            {fmt::format("sea.water[{}].{}_m", n, over ? "high" : "low"),
+             fmt::format("{} = {:.4g} m in a tank from {:.4g} to {:.4g} m", "xyz"[axis], over ? high : low, least, most),
+             "boxes within the tank", "the water outside of it is left out; look at both, and at their units"});
+    }
+}
+
 /// Obstacles with water on both sides that feels itself through them. What stands on the bed or against a wall has no far side.
 void doubt_obstacles(scene::Doubts& doubts, const SeaOptions& sea, const SeaEnvironment& e) {
   if (!sea.tank) return;
@@ -325,6 +345,7 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   }
   if (!sea.has_particles() || !sea.particles) return doubts;
   doubt_tank(doubts, sea, waves, e, bodies);
+  doubt_boxes_of_water(doubts, sea, e);
   doubt_obstacles(doubts, sea, e);
   doubt_in_tank(doubts, sea, waves, e, bodies);
   if (const double rate = sea.initial ? sea.initial->settle_damping_1_s : 0.0, swing = std::sqrt(e.gravity / e.water_depth);

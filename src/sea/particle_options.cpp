@@ -55,8 +55,8 @@ const Section<ParticleOptions>& particle_section() {
                   "Smoothing kernel.")
           .number("sound_speed_factor", &ParticleOptions::sound_speed_factor, "-",
                   "Speed of sound over sqrt(gravity x water depth). Where neither this nor sound_speed_m_s is given it is 10, "
-                  "which keeps density within 1 %, 20 for columns of water that break, and sound is at least 20 times as fast as "
-                  "bodies that enter the water.",
+                  "which keeps density within 1 %, 20 for water that breaks, falls or runs out at open sides. It is at least 20 "
+                  "times the speed of bodies that enter the water.",
                   between(5.0, 400.0))
           .number("sound_speed_m_s", &ParticleOptions::sound_speed_m_s, "m/s", "Speed of sound itself.", positive())
           .choice("viscosity_model", &ParticleOptions::viscosity_model,

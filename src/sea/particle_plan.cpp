@@ -29,14 +29,28 @@ double deepest_water(const SeaOptions& o, double water_depth) {
   return o.water.empty() ? water_depth : deepest;
 }
 
-/// Columns that do not reach from side to side break, and their water runs at twice sqrt(g depth).
-bool breaks(const SeaOptions& o) {
-  const TankOptions& t = *o.tank;
-  const auto open = [&](const BoxOptions& box) {
-    return box.low_m[0] > t.x_m[0] || box.high_m[0] < t.x_m[1] ||
-           (!o.particles->planar() && (box.low_m[1] > t.y_m[0] || box.high_m[1] < t.y_m[1]));
+/// Whether a box of water has nothing under it: over a level bed, away from other boxes and obstacles.
+bool hangs(const SeaOptions& o, const BoxOptions& box, double water_depth) {
+  const double foot = box.low_m[2] - o.particles->spacing_m;
+  const auto carries = [&](const BoxOptions& other) {
+    return &other != &box && other.low_m[2] < foot && other.high_m[2] > foot && other.low_m[0] < box.high_m[0] &&
+           other.high_m[0] > box.low_m[0] &&
+           (o.particles->planar() || (other.low_m[1] < box.high_m[1] && other.high_m[1] > box.low_m[1]));
   };
-  return std::ranges::any_of(o.water, open);
+  return o.tank->bed_m.empty() && o.tank->meshes.empty() && foot > -water_depth && std::ranges::none_of(o.water, carries) &&
+         std::ranges::none_of(o.obstacles, carries);
+}
+
+/// Water that is not held all round runs at twice sqrt(g depth): columns that do not reach from side to side, or to sides that
+/// are open, and boxes that fall.
+bool breaks(const SeaOptions& o, double water_depth) {
+  const TankOptions& t = *o.tank;
+  const bool planar = o.particles->planar();
+  const auto loose = [&](const BoxOptions& box) {
+    return box.low_m[0] > t.x_m[0] || box.high_m[0] < t.x_m[1] ||
+           (!planar && (box.low_m[1] > t.y_m[0] || box.high_m[1] < t.y_m[1])) || hangs(o, box, water_depth);
+  };
+  return t.sides_x == "open" || (!planar && t.sides_y == "open") || std::ranges::any_of(o.water, loose);
 }
 
 struct SoundSpeed {
@@ -46,7 +60,7 @@ struct SoundSpeed {
 SoundSpeed sound_speed(const SeaOptions& o, const SeaEnvironment& environment, double entry_speed) {
   const ParticleOptions& p = *o.particles;
   if (p.sound_speed_m_s) return {*p.sound_speed_m_s, "the scene's"};
-  const double default_factor = breaks(o) ? sound_speed_factor_of_a_dam : default_sound_speed_factor;
+  const double default_factor = breaks(o, environment.water_depth) ? sound_speed_factor_of_a_dam : default_sound_speed_factor;
   const double factor = p.sound_speed_factor.value_or(default_factor), entry = sound_over_entry_speed * entry_speed;
   const double waves = factor * std::sqrt(environment.gravity * deepest_water(o, environment.water_depth));
   if (!p.sound_speed_factor && entry > waves)

@@ -94,6 +94,45 @@ TEST_CASE("a sensor that no particle of a wall or body is on is refused", "[sea]
   }
 }
 
+TEST_CASE("boxes of water that reach out of the tank are doubted by the axis along which they do", "[sea][sph][fast]") {
+  using Catch::Contains;
+  Scene s = particle_tank();
+  const auto doubted = [&](Eigen::Vector3d low, Eigen::Vector3d high) {
+    s.sea.water = {{low, high}};
+    return s.doubted();
+  };
+  CHECK_THAT(doubted({0, 0, -1}, {2, 2, 0}), !Contains("sea.water"));
+  CHECK_THAT(doubted({0, 0, -1}, {6, 2, 0}), Contains("sea.water[0].high_m x = 6 m in a tank from 0 to 4 m"));
+  CHECK_THAT(doubted({0, -2, -1}, {2, 2, 0}), Contains("sea.water[0].low_m y = -2 m in a tank from 0 to 2 m"));
+  CHECK_THAT(doubted({0, 0, -10}, {2, 2, 0}), Contains("sea.water[0].low_m z = -10 m in a tank from -1 to 0.5 m"));
+  s.sea.tank->sides_y = "symmetric";
+  CHECK_THAT(doubted({0, -2, -1}, {2, 2, 0}), !Contains("sea.water"));
+  s = particle_tank(true);  // a width is no one's in the plane
+  CHECK_THAT(doubted({0, -2, -1}, {2, 2, 0}), !Contains("sea.water"));
+}
+
+TEST_CASE("sound is twice as fast in water that breaks, falls or runs out as in water that is held", "[sea][sph][fast]") {
+  Scene s = particle_tank(GENERATE(false, true));
+  const auto sound = [&] { return particle_plan(s.sea, s.waves, metre_deep, {}, 0.0).parameters.eos.c0; };
+  const double held = 10.0 * std::sqrt(9.81), loose = 20.0 * std::sqrt(9.81);
+  CHECK(sound() == Approx(held));
+  SECTION("at open sides") {
+    s.sea.tank->sides_x = "open";
+    CHECK(sound() == Approx(loose));
+  }
+  SECTION("in boxes") {
+    const BoxOptions lower{{0, 0, -1}, {4, 2, -0.5}}, upper{{0, 0, -0.5}, {4, 2, 0}}, column{{0, 0, -1}, {1, 2, 0}};
+    s.sea.water = {lower, upper};
+    CHECK(sound() == Approx(held));
+    s.sea.water = {upper};
+    CHECK(sound() == Approx(loose));
+    s.sea.water = {column};
+    CHECK(sound() == Approx(loose));
+    s.sea.water = {upper}, s.sea.obstacles = {lower};
+    CHECK(sound() == Approx(held));
+  }
+}
+
 TEST_CASE("boxes of water and obstacles without a particle are refused", "[sea][sph][fast]") {
   using Catch::Contains;
   Scene s = particle_tank(GENERATE(false, true));
