@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kernels/rigid/closed_surface.hpp"
+#include "kernels/sph/viscosity_artificial.hpp"
 #include "src/app/forecast.hpp"
 #include "src/coupling/out_of_place.hpp"
 #include "src/coupling/saved_air.hpp"
@@ -103,6 +104,12 @@ PartCost print_particles(const FloatingSystem& floating, const coupling::Start& 
                              : "; it sinks");
   fmt::print("  {:<22}{:.4g} m/s ({}), {:.3g} m spacing, support {:.3g} m\n", "speed of sound", p.eos.c0,
              floating.particle_plan()->sound_speed_from, p.spacing, p.reach());
+  if (p.viscosity == sph::ViscosityChoice::artificial && p.alpha > 0.0) {
+    const int dim = s.sea.particles->planar() ? 2 : 3;
+    const double on_all_pairs = sph::ViscosityArtificial<>{p.alpha, p.eos.c0, p.h()}.equivalent_kinematic(dim);
+    fmt::print("  {:<22}that of a fluid of about {:.2g} m2/s: alpha {:.3g}, and half of alpha c0 h / {}\n", "viscosity",
+               0.5 * on_all_pairs, p.alpha, 2 * (dim + 2));
+  }
   fmt::print("  {:<22}{:.4g} s at rest, set by {}{}; {:.0f} to a window\n", "largest step", census.step_s, census.step_set_by,
              s.time.step_s ? fmt::format("; the scene asks for {} s", *s.time.step_s) : "", steps_per_window);
   return cost_of_particles(floating, census, steps_per_window);

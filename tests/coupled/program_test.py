@@ -600,6 +600,12 @@ model = "morison"
                 self.assertEqual(done.returncode, 2, done.stdout)
                 self.assertIn(words, done.stderr)
 
+    def test_the_artificial_viscosity_is_told_as_that_of_a_fluid(self):
+        text = checked("validation/wave_tank/small_tank.toml")[1]
+        nu, alpha = map(float, re.search(r"\n  viscosity +that of a fluid of about (\S+) m2/s: alpha ([\d.]+),", text).groups())
+        sound, support = map(float, re.search(r"\n  speed of sound +(\S+) m/s .* support (\S+) m\n", text).groups())
+        self.assertAlmostEqual(nu / (0.5 * alpha * sound * support / 2 / 8), 1.0, delta=0.06)   # two digits; the support is 2 h
+
     def test_air_that_is_viscous_without_a_turbulence_model_is_called_laminar(self):
         self.assertRegex(checked("validation/cylinder_re100/cylinder.toml")[1], r"\n  air +bdf2, laminar, grid")
 
