@@ -109,7 +109,7 @@ TEST_CASE("a sharp outline is no circle: nose and trailing edge have their own s
   const auto edge = GENERATE(2, 4);
   const SectionSpacing spacing{.round = 80, .edge = edge, .leading_edge = 0.006, .trailing_edge = 0.009};
   const std::vector<Eigen::Vector2d> nodes = resample_outline(sharp, spacing);
-  const auto cell = [&](int i) { return (nodes[std::size_t((i + 1) % 80)] - nodes[std::size_t((i + 80) % 80)]).norm(); };
+  const auto cell = [&](int i) { return (nodes[std::size_t((i + 81) % 80)] - nodes[std::size_t((i + 80) % 80)]).norm(); };
   CHECK((nodes[0] - Eigen::Vector2d(1, 0)).norm() < 1e-12);
   CHECK(nodes[40].norm() < 1e-4);
   CHECK(signed_area(nodes) < 0.0);
