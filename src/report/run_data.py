@@ -100,14 +100,19 @@ class RunData:
 
     def round_off(self, name):
         """What a column must exceed to count: 1e-12 of the largest value among the columns of its unit; of motions and loads of bodies so much
-        of the largest of their kind that nobody looks for it, as a motion that none drives is left by iterations that end."""
-        kind = quantities.kind_of_body(name) or quantities.unit_of(name, self.described)
+        of the largest of their kind that nobody looks for it, as a motion that none drives is left by iterations that end. What has no unit
+        is of its own kind, for a residual is not small beside a CFL number; but the coefficients of forces are one."""
+        def kind_of(column):
+            alike = quantities.kind_of_body(column) or quantities.unit_of(column, self.described)
+            return alike or ("coefficient" if column.endswith("_coefficient") else column)
+
+        kind = kind_of(name)
         if kind not in self._round_off:
             def largest(like):
                 values = self.values[[like(other) for other in self.columns]]
                 return np.abs(values[np.isfinite(values)]).max(initial=0.0)
 
-            alike = largest(lambda other: (quantities.kind_of_body(other) or quantities.unit_of(other, self.described)) == kind)
+            alike = largest(lambda other: kind_of(other) == kind)
             if kind == "moment":   # at an arm of a metre
                 alike = max(alike, largest(lambda other: quantities.kind_of_body(other) == "force"))
             share, least = {"displacement": (1e-6, 0.0), "angle": (1e-6, 1e-6), "force": (1e-8, 0.0), "moment": (1e-8, 0.0)}.get(kind, (1e-12, 0.0))
@@ -115,7 +120,8 @@ class RunData:
         return self._round_off[kind]
 
     def mean_range(self):
-        """Rows and words of the range that means are taken over: the summary's last that holds rows, else the last quarter."""
+        """Rows and words of the range that means are taken over: the summary's last that holds rows, else, of a run that did not end, as long a one
+        as the run would have taken (Output::mean_length): output.means_over_s, or a third."""
         def rows(start, end):
             margin = 1e-9 * max(1.0, abs(end))
             steady = (self.scene.get("aero", {}).get("flow") or {}).get("time") == "steady"
@@ -127,7 +133,8 @@ class RunData:
                 chosen = rows(found["from_s"], found["to_s"])
                 if chosen[0].any():
                     return chosen
-        return rows(self.time[-1] - 0.25 * (self.time[-1] - self.time[0]), self.time[-1])
+        wanted = (self.scene.get("output") or {}).get("means_over_s") or 0.0
+        return rows(max(self.time[0], self.time[-1] - (wanted if wanted > 0.0 else (self.time[-1] - self.time[0]) / 3.0)), self.time[-1])
 
     def rotors(self):
         """What the columns of each rotor begin with, and its section: [rotor], or each [rotors.NAME]."""

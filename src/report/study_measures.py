@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 import decay
+from words import deviation, mean
 
 OF_TWO_HISTORIES = ("rms", "max")
 
@@ -18,15 +19,6 @@ def cut(time, value, from_s, until_s):
     low = np.searchsorted(time, from_s - 1e-9 * max(1.0, abs(from_s)))
     high = len(time) if until_s is None else np.searchsorted(time, until_s + 1e-9 * max(1.0, abs(until_s)), side="right")
     return time[low:high], value[low:high]
-
-
-def mean(t, x):
-    """Over time, trapezoidal: uneven steps weigh rightly."""
-    return float(np.trapz(x, t) / (t[-1] - t[0]))
-
-
-def deviation(t, x):
-    return math.sqrt(max(0.0, mean(t, (x - mean(t, x)) ** 2)))
 
 
 def harmonic(t, x, frequency_Hz):

@@ -240,6 +240,23 @@ source = "Bak et al. 2013"
         self.assertIn("Wellengang fünf 海", text)
         self.assertIn("alert('x')", parsed.text)  # there, as text
 
+    def test_what_has_no_unit_counts_by_itself_and_coefficients_by_the_largest_of_them(self):
+        t = np.arange(50.0)
+        table = {"time_s": t, "flow.cfl": 1e6 + 0 * t, "flow.scaled_residual": 1e-9 + 0 * t, "flow.lift_coefficient": 1e-16 * np.sin(t),
+                 "flow.drag_coefficient": 0.008 + 0 * t}
+        synthetic_run.write(self.folder / "run", table=table, log="")
+        run = RunData(self.folder / "run")
+        self.assertLess(run.round_off("flow.scaled_residual"), 1e-9)
+        self.assertLess(run.round_off("flow.drag_coefficient"), 1e-9)
+        self.assertGreater(run.round_off("flow.lift_coefficient"), 1e-16)
+
+    def test_a_run_that_did_not_end_has_means_over_what_its_scene_asks_for(self):
+        table = {"time_s": np.arange(0.0, 91.0), "platform.x_m": np.arange(0.0, 91.0)}
+        for asked, first in (("", 60.0), ("\n[output]\nmeans_over_s = 20.0\n", 70.0), ("\n[output]\nmeans_over_s = 200.0\n", 0.0)):
+            synthetic_run.write(self.folder / "run", table=table, log="", scene=synthetic_run.SCENE + asked, with_summary=False)
+            run = RunData(self.folder / "run")
+            self.assertEqual(run.time[run.mean_range()[0]][0], first)
+
     def test_a_million_rows_in_seconds(self):
         t = 0.01 * np.arange(1_000_000)
         folder = self.folder / "run"
@@ -266,7 +283,7 @@ source = "Bak et al. 2013"
         self.assertEqual(parsed.sections, ["differences", "key-figures"] + [key for key in ALL[1:10] if key != "model"])
         self.assertRegex(parsed.text, r"aero\.thrust_N\s*1500000\s*1650000")
         self.assertIn("5.720 (+0.521 deg)", parsed.text)   # a share of an angle says nothing
-        self.assertIn("1.500 (−0.04 %)", parsed.text)
+        self.assertIn("1.499 (−0.08 %)", parsed.text)
         synthetic_run.write(self.folder / "deep/a", rows=0)
         self.page("a", "deep/a")  # equal names, and one without rows
 
