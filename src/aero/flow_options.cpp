@@ -219,8 +219,8 @@ const scene::Section<FlowOptions>& flow_section() {
           .flag("surfaces", &FlowOptions::surfaces, "Whether walls are written to fields/walls.xdmf: pressure, friction, y+.")
           .degrees("incidence_deg", &FlowOptions::incidence, "Angle by which the wind blows upwards.", between(-90.0, 90.0))
           .number("reference_area_m2", &FlowOptions::reference_area_m2, "m2",
-                  "Area of the coefficients in history.csv. Default: chord times width or span of a section or wing of "
-                  "`generate`; else 1.",
+                  "Area of the coefficients in history.csv. Default: 1 m, the chord of what `generate` makes, times the width of "
+                  "a two-dimensional grid or the span of a wing.",
                   above(0.0).up_to(1e9))
           .check([](const FlowOptions& o, const scene::Report& report) {
             const bool transports = o.viscous != "none" && model_sweeps(o.turbulence).equations > 0;
@@ -303,10 +303,8 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
 }
 
 double own_area(const FlowOptions& o) {
-  constexpr double chord = 1.0;
-  if (!o.generate) return 1.0;
-  if (o.generate->kind == "wing") return chord * o.generate->span_m;
-  return o.generate->kind == "naca0012" || o.generate->kind == "aerofoil" ? chord * planar_width(o) : 1.0;
+  constexpr double length = 1.0;
+  return length * (o.generate && o.generate->kind == "wing" ? o.generate->span_m : planar_width(o));
 }
 
 std::vector<std::string> wall_patches(const FlowOptions& options) {

@@ -91,7 +91,7 @@ struct FlowOptions : FlowDomain, FlowSchemes, FlowMarchOptions, FlowLinearOption
   std::optional<double> reference_area_m2;  ///< unset: own_area
 };
 
-/// Chord times width or span of a section or wing that the program makes [m2]; 1 of all else.
+/// A metre, the chord of sections and wings that the program makes, times the width of a planar grid or the wing's span [m2].
 double own_area(const FlowOptions& options);
 /// Area of the coefficients [m2]: as given, else own_area.
 inline double reference_area(const FlowOptions& options) { return options.reference_area_m2.value_or(own_area(options)); }

@@ -162,13 +162,16 @@ TEST_CASE("a width is refused where the grid has one of its own", "[flow][fast]"
   std::filesystem::remove(file), std::filesystem::remove(map);
 }
 
-TEST_CASE("coefficients are by chord times width or span of what the program makes, where no area is given", "[flow][fast]") {
+TEST_CASE("coefficients are by a metre times width or span where no area is given", "[flow][fast]") {
   const std::string grid = "[aero.flow.generate]\nkind = ";
   CHECK(reference_area(read(grid + "'naca0012'\n")) == 1.0);
   CHECK(reference_area(read("width_m = 0.5\n" + grid + "'aerofoil'\nnaca = '4412'\n")) == 0.5);
   CHECK(reference_area(read(grid + "'wing'\nspan_m = 30.0\n")) == 30.0);
   CHECK(reference_area(read("reference_area_m2 = 3.0\n" + grid + "'wing'\nspan_m = 30.0\n")) == 3.0);
   CHECK(reference_area(read(grid + "'cylinder'\n")) == 1.0);
+  CHECK(reference_area(read("width_m = 3.0\n" + grid + "'cylinder'\n")) == 3.0);
+  const std::string section = std::string(SPINDRIFT_SOURCE_DIR) + "/inputs/validation/naca0012/tmr_112x32";
+  CHECK(reference_area(read("width_m = 3.0\ngrid = '" + section + ".p3d'\nmap = '" + section + ".nmf'\n")) == 3.0);
   const auto doubted = [&](const std::string& keys) {
     for (const scene::Doubt& d : flow_doubts(read(keys + grid + "'wing'\nspan_m = 30.0\n"), 50.0, 1.0, 1.225))
       if (d.key == "aero.flow.reference_area_m2") return true;
