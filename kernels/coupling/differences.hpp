@@ -22,7 +22,6 @@ class Differences {
 
   int columns() const { return int(v_.cols()); }
   const Matrix& images() const { return w_; }
-  int in_this_window() const { return int(std::count(age_.begin(), age_.end(), 0)); }
 
   /// A pair that is not finite or does not move teaches nothing and is left out.
   void add(const Vector& v, const Vector& w);

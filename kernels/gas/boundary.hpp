@@ -88,22 +88,13 @@ SPINDRIFT_INLINE Primitive<Real> outflow_pressure(const IdealGas& gas, const Pri
   return select_state(leaves, q, Primitive<Real>{outside.p, un * f.nx, un * f.ny, un * f.nz, outside.T});
 }
 
-/// The state on a wall or symmetry plane: no flow through the moving face.
-template <class Real>
-SPINDRIFT_INLINE Primitive<Real> slip_wall(const Primitive<Real>& inside, const Face<Real>& f) {
-  return with_normal_velocity(inside, f, f.speed, inside.p, inside.T);
-}
 /// The ghost cell behind a slip wall or symmetry plane: the mirror image.
 template <class Real>
 SPINDRIFT_INLINE Primitive<Real> mirrored(const Primitive<Real>& inside, const Face<Real>& f) {
   return with_normal_velocity(inside, f, 2.0 * f.speed - normal_velocity(inside, f), inside.p, inside.T);
 }
-/// The state on an adiabatic wall that moves with (u, v, w) [m/s]: the gas sticks to it.
-template <class Real>
-SPINDRIFT_INLINE Primitive<Real> no_slip_wall(const Primitive<Real>& inside, const Vector<Real>& wall) {
-  return {inside.p, wall.x, wall.y, wall.z, inside.T};
-}
-/// The ghost cell behind it: the wall's velocity is the mean of inside and ghost; no gradient of pressure and temperature across.
+/// The ghost cell behind an adiabatic wall that moves with (u, v, w) [m/s], to which the gas sticks: the wall's velocity is the
+/// mean of inside and ghost; no gradient of pressure and temperature across.
 template <class Real>
 SPINDRIFT_INLINE Primitive<Real> no_slip_ghost(const Primitive<Real>& inside, const Vector<Real>& wall) {
   return {inside.p, 2.0 * wall.x - inside.u, 2.0 * wall.y - inside.v, 2.0 * wall.z - inside.w, inside.T};
@@ -113,14 +104,6 @@ SPINDRIFT_INLINE Primitive<Real> no_slip_ghost(const Primitive<Real>& inside, co
 template <class Real>
 SPINDRIFT_INLINE Real isothermal_ghost(const IdealGas& gas, const Real& inside, double wall) {
   return max((2.0 * (wall - gas.temperature_reference)) - inside, 0.1 * wall - gas.temperature_reference);
-}
-/// Ghost cell behind a face of known state: linear through the face. Bounded below at a tenth of the absolute face values.
-template <class Real>
-SPINDRIFT_INLINE Primitive<Real> ghost_of_face(const IdealGas& gas, const Primitive<Real>& inside, const Primitive<Real>& face) {
-  Primitive<Real> q = face + (face - inside);
-  q.p = max(q.p, 0.1 * absolute_pressure(gas, face) - gas.pressure_reference);
-  q.T = max(q.T, 0.1 * absolute_temperature(gas, face) - gas.temperature_reference);
-  return q;
 }
 
 /// Convective flux through a wall face: nothing but pressure and its work on the moving wall; p [Pa] above the reference.

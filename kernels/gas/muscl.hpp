@@ -80,11 +80,10 @@ struct Minmod {
 };
 static_assert(Limiter<Minmod>);
 
-/// States on both sides of a face, and how many of them (0, 1, 2) fell back to their cell's value to stay positive.
+/// States on both sides of a face.
 template <class Real>
 struct FaceStates {
   Primitive<Real> l, r;
-  Real fallbacks;
 };
 
 /// One number, of the cell and its differences behind and ahead.
@@ -101,7 +100,8 @@ SPINDRIFT_INLINE Primitive<Real> reconstruct(const Limiter& limiter, const Primi
           reconstruct(limiter, behind.T, cell.T, ahead.T)};
 }
 
-/// The two reconstructed states, each as a whole its cell's where it has lost too much.
+/// The two reconstructed states, each as a whole its cell's where its absolute pressure or temperature would be less than `least`
+/// of the cell's: positive states stay positive.
 template <class Real>
 SPINDRIFT_INLINE FaceStates<Real> kept_positive(const IdealGas& gas, const Primitive<Real>& left, const Primitive<Real>& l,
                                                 const Primitive<Real>& right, const Primitive<Real>& r, double least) {
@@ -109,14 +109,10 @@ SPINDRIFT_INLINE FaceStates<Real> kept_positive(const IdealGas& gas, const Primi
     return (absolute_pressure(gas, q) < least * absolute_pressure(gas, cell)) |
            (absolute_temperature(gas, q) < least * absolute_temperature(gas, cell));
   };
-  const auto bad_l = bad(l, left);
-  const auto bad_r = bad(r, right);
-  const Real one(1.0), zero(0.0);
-  return {select_state(bad_l, left, l), select_state(bad_r, right, r), select(bad_l, one, zero) + select(bad_r, one, zero)};
+  return {select_state(bad(l, left), left, l), select_state(bad(r, right), right, r)};
 }
 
-/// Face between `left` and `right`. A state whose absolute pressure or temperature would lose more than `least` of its cell's
-/// falls back to the cell's state as a whole: positive states stay positive.
+/// Face between `left` and `right`, kept positive.
 template <class Limiter, class Real>
 SPINDRIFT_INLINE FaceStates<Real> muscl(const IdealGas& gas, const Limiter& limiter, const Primitive<Real>& before_left,
                                         const Primitive<Real>& left, const Primitive<Real>& right,

@@ -68,12 +68,6 @@ template <class Real>
 SPINDRIFT_INLINE Real density(const IdealGas& gas, const Primitive<Real>& q) {
   return absolute_pressure(gas, q) / (gas.gas_constant * absolute_temperature(gas, q));
 }
-/// Density [kg/m3] above that of the references, every digit of it near the reference state.
-template <class Real>
-SPINDRIFT_INLINE Real density_deviation(const IdealGas& gas, const Primitive<Real>& q) {
-  const double ratio = gas.pressure_reference / gas.temperature_reference;
-  return (q.p - ratio * q.T) / (gas.gas_constant * absolute_temperature(gas, q));
-}
 template <class Real>
 SPINDRIFT_INLINE Real sound_speed(const IdealGas& gas, const Primitive<Real>& q) {
   return sqrt((gas.gamma * gas.gas_constant) * absolute_temperature(gas, q));

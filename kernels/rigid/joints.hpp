@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -19,11 +18,6 @@ namespace spindrift {
 enum class JointType { fixed, revolute, spherical, universal, translational, cylindrical, planar };
 inline constexpr std::array<std::string_view, 7> joint_type_names{"fixed",         "revolute",    "spherical", "universal",
                                                                   "translational", "cylindrical", "planar"};
-inline constexpr std::optional<JointType> joint_type_named(std::string_view name) {
-  for (std::size_t i = 0; i < joint_type_names.size(); ++i)
-    if (joint_type_names[i] == name) return JointType(i);
-  return std::nullopt;
-}
 inline constexpr bool turns(JointType t) { return t == JointType::revolute || t == JointType::cylindrical; }
 inline constexpr bool slides(JointType t) { return t == JointType::translational || t == JointType::cylindrical; }
 

@@ -33,7 +33,4 @@ inline double step_limit_body(double relative_weight, double layers, double spac
   return 2.0 * std::sqrt(relative_weight * layers) * spacing / c0;
 }
 
-/// Largest stable step [s] of a mass on a spring (a mooring line, a contact): omega dt = 2.
-inline double step_limit_spring(double mass, double stiffness) { return 2.0 * std::sqrt(mass / stiffness); }
-
 }  // namespace spindrift::sph

@@ -110,7 +110,6 @@ const Graph& Executor::graph() const { return state_->team.graph; }
 std::span<const Record> Executor::records(int thread) const {
   return state_->team.workers.at(std::size_t(thread))->records.records();
 }
-std::size_t Executor::lost_records(int thread) const { return state_->team.workers.at(std::size_t(thread))->records.lost(); }
 void Executor::clear_records() {
   for (auto& worker : state_->team.workers) worker->records.clear();
 }
@@ -118,11 +117,6 @@ const ThreadTimes& Executor::times(int thread) const { return state_->team.worke
 TaskCost Executor::cost(std::uint32_t node) const {
   const Slot& slot = state_->team.program.slots.at(node);
   return {slot.cost_ns, slot.step};
-}
-double Executor::mean_iterations(std::uint32_t node) const {
-  const Program& program = state_->team.program;
-  const Loop& loop = program.loops.at(program.slots.at(node).payload);
-  return loop.entries == 0 ? 0.0 : double(loop.iterations) / double(loop.entries);
 }
 std::uint64_t Executor::bytes(std::uint32_t node) const { return state_->team.graph.recorded().message_bytes.at(node); }
 

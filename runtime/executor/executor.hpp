@@ -44,12 +44,10 @@ class Executor {
   const Graph& graph() const;
 
   std::span<const Record> records(int thread) const;
-  std::size_t lost_records(int thread) const;
   void clear_records();
   const ThreadTimes& times(int thread) const;
-  TaskCost cost(std::uint32_t node) const;           ///< messages: from posting to completion
-  double mean_iterations(std::uint32_t loop) const;  ///< of a loop node, per entry
-  std::uint64_t bytes(std::uint32_t node) const;     ///< sent or received by a message node in all, 8 per value for reductions
+  TaskCost cost(std::uint32_t node) const;        ///< messages: from posting to completion
+  std::uint64_t bytes(std::uint32_t node) const;  ///< sent or received by a message node in all, 8 per value for reductions
 
   struct State;
   const Team& team() const;  ///< for the trace

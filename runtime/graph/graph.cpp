@@ -168,7 +168,6 @@ void Graph::order(std::uint32_t before, std::uint32_t after) {
 
 std::span<const Node> Graph::nodes() const { return recorded_->nodes; }
 std::span<const Touch> Graph::touched() const { return recorded_->touched; }
-std::size_t Graph::data_count() const { return recorded_->place_of.size(); }
 
 std::span<const Edge> Graph::edges() const {
   Recorded& g = *recorded_;

@@ -133,7 +133,6 @@ class Graph {
   std::span<const Touch> touched() const;
   /// All edges, derived on the first call; throws CycleError (graph/errors.hpp).
   std::span<const Edge> edges() const;
-  std::size_t data_count() const;
 
   struct Recorded;  ///< graph/recorded.hpp, for the executor
   const Recorded& recorded() const { return *recorded_; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/base/smooth_step.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/coupling/flow_scene.hpp"
 
@@ -82,8 +83,7 @@ aero::RotorLoad RotorSource::written(double t, const aero::RotorState& now) cons
 
 double RotorSource::ramp(double t) const {
   if (wanted_.full || t >= ramp_s_) return 1.0;
-  const double x = std::max(0.0, t / ramp_s_);
-  return x * x * (3.0 - 2.0 * x);
+  return smooth_step(t / ramp_s_);
 }
 
 void RotorSource::add_to(LoadSources& sources) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/aero/flow/sweep_convective.hpp"
 
+#include "kernels/turbulence/model.hpp"
+
 namespace spindrift::aero {
 
 namespace {
@@ -73,17 +75,14 @@ void fluxes(const FlowTile& tile, const double* state, int d, int k, int j, int 
     for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
       for (int n = 0; n < count; n += row_lanes) {
         const double* cell = at + t * tile.cells.component + n;
-        const Row mass = Row::load(out + n), zero(0.0);
-        (max(mass, zero) * Row::load(cell - step) + min(mass, zero) * Row::load(cell)).store(out + t * stride + n);
+        turbulence::convected(Row::load(out + n), Row::load(cell - step), Row::load(cell)).store(out + t * stride + n);
       }
     return;
   }
   for (int t = mean_unknowns; t < mean_unknowns + tile.turbulence; ++t)
-    for (int n = 0; n < count; n += row_lanes) {
-      const Row mass = Row::load(out + n), zero(0.0);
-      (max(mass, zero) * Row::load(states.left[t] + n) + min(mass, zero) * Row::load(states.right[t] + n))
+    for (int n = 0; n < count; n += row_lanes)
+      turbulence::convected(Row::load(out + n), Row::load(states.left[t] + n), Row::load(states.right[t] + n))
           .store(out + t * stride + n);
-    }
 }
 
 }  // namespace

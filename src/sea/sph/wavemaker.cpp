@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "kernels/base/constants.hpp"
+#include "kernels/base/smooth_step.hpp"
 #include "kernels/waves/wavemaker.hpp"
 
 namespace spindrift::sph {
@@ -45,7 +46,7 @@ Wavemaker::Stroke Wavemaker::stroke(double t) const {
   Stroke s = of_harmonics(t);
   s.displacement -= offset_;
   if (since >= paddle_.ramp_s) return s;
-  const double x = since / paddle_.ramp_s, ramp = x * x * (3.0 - 2.0 * x), rate = 6.0 * x * (1.0 - x) / paddle_.ramp_s;
+  const double x = since / paddle_.ramp_s, ramp = smooth_step(x), rate = 6.0 * x * (1.0 - x) / paddle_.ramp_s;
   return {ramp * s.displacement, ramp * s.velocity + rate * s.displacement};
 }
 

@@ -64,21 +64,19 @@ TEMPLATE_TEST_CASE("limiting does not depend on the units of the variable", "[ga
   }
 }
 
-TEST_CASE("a state that would lose its pressure falls back to its cell and says so", "[gas][fast]") {
+TEST_CASE("a state that would lose its pressure falls back to its cell", "[gas][fast]") {
   const IdealGas gas = gauge_air();
   const auto at = [&](double p, double T) {
     return Primitive<double>{p - gas.pressure_reference, 10.0, 0.0, 0.0, T - gas.temperature_reference};
   };
   // From 8e5 through 1e5 to 0.9e5 the unlimited value on the far side of the middle cell is negative.
   const auto f = muscl(gas, Unlimited{}, at(8e5, 300), at(1e5, 300), at(0.9e5, 300), at(0.9e5, 300));
-  CHECK(f.fallbacks == 1.0);
   CHECK(f.l.p == at(1e5, 300).p);
-  CHECK(absolute_pressure(gas, f.r) > 0.0);
+  CHECK(absolute_pressure(gas, f.r) == Approx((0.9 + 0.1 / 3.0) * 1e5));
   const auto both = muscl(gas, Unlimited{}, at(1e5, 3000), at(1e5, 300), at(1e5, 300), at(1e5, 3000));
-  CHECK(both.fallbacks == 2.0);
   CHECK(both.l.T == at(1e5, 300).T);
+  CHECK(both.r.T == at(1e5, 300).T);
   const auto smooth = muscl(gas, Unlimited{}, at(1e5, 300), at(1.1e5, 310), at(1.2e5, 320), at(1.3e5, 330));
-  CHECK(smooth.fallbacks == 0.0);
   CHECK(absolute_pressure(gas, smooth.l) == Approx(1.15e5));
   CHECK(absolute_temperature(gas, smooth.r) == Approx(315.0));
 
@@ -89,5 +87,5 @@ TEST_CASE("a state that would lose its pressure falls back to its cell and says 
     p[2][k] = p[3][k] = 0.9e5 - gas.pressure_reference;
   const auto lane = [&](int c) { return Primitive<V>{V::load(p[c]), V(0.0), V(0.0), V(0.0), V(0.0)}; };
   const auto w = muscl(gas, Unlimited{}, lane(0), lane(1), lane(2), lane(3));
-  for (int k = 0; k < V::size; ++k) CHECK(w.fallbacks[k] == (k % 2 ? 1.0 : 0.0));
+  for (int k = 0; k < V::size; ++k) CHECK((w.l.p[k] == p[1][k]) == (k % 2 == 1));
 }

@@ -82,7 +82,6 @@ TEST_CASE("step limits are those of sound, force and viscosity", "[sph][fast]") 
   light.body *= 0.1;
   CHECK(std::string(light.name()) == "light body");
   CHECK(light.smallest() == light.body);
-  CHECK(step_limit_spring(4.0, 100.0) == Approx(0.4));
   CHECK(step_limits(0.2, 0.01, 34.0, 1.0, 0.0, 0.0).force > 1e300);
   CHECK(step_limits(0.2, 0.01, 34.0, 1e150, 1e150, 0.0).smallest() < 1e-70);
 }
