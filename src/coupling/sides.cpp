@@ -61,13 +61,13 @@ void broadcast_from(const runtime::Parts& parts, int part, Pack&& pack, Unpack&&
 }
 
 void put(Packer& to, const aero::RotorLoad& load) {
-  for (const double v : {load.thrust, load.torque, load.power}) to.put_one(v);
+  for (const double v : {load.thrust, load.torque, load.power, load.shaft_torque}) to.put_one(v);
   for (const Eigen::Vector3d& v : {load.force, load.moment})
     for (int d = 0; d < 3; ++d) to.put_one(v[d]);
 }
 aero::RotorLoad rotor_load(Unpacker& from) {
   aero::RotorLoad load;
-  for (double* v : {&load.thrust, &load.torque, &load.power}) *v = from.one<double>();
+  for (double* v : {&load.thrust, &load.torque, &load.power, &load.shaft_torque}) *v = from.one<double>();
   for (Eigen::Vector3d* v : {&load.force, &load.moment})
     for (int d = 0; d < 3; ++d) (*v)[d] = from.one<double>();
   return load;
