@@ -42,6 +42,15 @@ double circulation(const Place& at, const Eigen::Vector3d& induced) {
   return 0.5 * std::hypot(normal, tangential) * at.ring.chord * at.polars(attack).lift;
 }
 
+/// Share of the induction by the tip-speed ratio: blades that hardly turn are no disc that all air of their annuli meets.
+/// AeroDyn's limits and blend (OpenFAST, AeroDyn/src/BEMT.f90, BEMT_lowerBoundTSR and BEMT_upperBoundTSR).
+double share_of_turning(double tip_speed, double wind) {
+  constexpr double none_up_to = 1.0, all_from = 2.0;
+  if (tip_speed >= all_from * wind) return 1.0;
+  const double ratio = tip_speed / wind;
+  return ratio <= none_up_to ? 0.0 : 0.5 * (1.0 - std::cos(pi * (ratio - none_up_to) / (all_from - none_up_to)));
+}
+
 NumericalFailure unsettled_wake(double t) {
   return {
       fmt::format("t = {:g} s: aero: the circulation along the blades and what their wake of filaments induces do not settle on "
@@ -53,8 +62,12 @@ NumericalFailure unsettled_wake(double t) {
 }  // namespace
 
 BladeElementMomentum::BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density,
-                                           const UnsteadyFlow& unsteady, double kinematic_viscosity)
-    : unsteady_(unsteady), blades_(turbine.blades), air_density_(air_density), kinematic_viscosity_(kinematic_viscosity) {
+                                           const UnsteadyFlow& unsteady, double kinematic_viscosity, bool skew_momentum)
+    : unsteady_(unsteady),
+      blades_(turbine.blades),
+      skew_momentum_(skew_momentum),
+      air_density_(air_density),
+      kinematic_viscosity_(kinematic_viscosity) {
   if (induction == InductionBuhl::name) induction_ = InductionBuhl();
   const Planform& p = turbine.planform;
   const double cone_sine = std::sin(turbine.precone), cone_cosine = std::cos(turbine.precone);
@@ -93,6 +106,7 @@ void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& ro
   const Eigen::Vector3d in_disc = at_hub - at_hub.dot(rotor.axis) * rotor.axis;
   const double across = in_disc.norm(), skew = std::atan2(across, std::abs(at_hub.dot(rotor.axis)));
   const Eigen::Vector3d downstream = across > 0.0 ? Eigen::Vector3d(in_disc / across) : Eigen::Vector3d::Zero();
+  const double turning = share_of_turning(std::abs(rotor.omega.dot(rotor.axis)) * tip_radius_, at_hub.norm());
   std::size_t index = 0;
   for (int b = 0; b < blades_; ++b) {
     const double azimuth = rotor.azimuth + 2.0 * pi * b / blades_;
@@ -113,7 +127,8 @@ void BladeElementMomentum::for_each_place(const Wind& wind, const DiscMotion& ro
       const Eigen::Vector3d relative = air - own, met = relative - rotor.omega.cross(arm);
       const double normal_wind = met.dot(normal), tangential_wind = -met.dot(ahead);
       visit(Place{index++, e, ring, arm, normal, ahead, normal_wind, tangential_wind, skew,
-                  e.radius / tip_radius_ * out.dot(downstream), in_use(e, normal_wind, tangential_wind)});
+                  e.radius / tip_radius_ * out.dot(downstream), skew_momentum_ ? across : 0.0, turning,
+                  in_use(e, normal_wind, tangential_wind)});
     }
   }
 }
@@ -129,9 +144,18 @@ void BladeElementMomentum::bend(const BentBlades& bent, const BladeAxes& axes, i
 }
 
 ElementState BladeElementMomentum::balance(const Place& at) const {
-  return std::visit(
-      [&](const auto& induction) { return solve_element(at.ring, at.normal_wind, at.tangential_wind, induction, at.polars); },
+  const ElementState whole = std::visit(
+      [&](const auto& induction) {
+        return solve_element(at.ring, at.normal_wind, at.tangential_wind, induction, at.polars, at.cross_wind);
+      },
       induction_);
+  if (at.turning == 1.0 || !whole.balanced) return whole;
+  const auto part = [&](double undisturbed, double met) { return undisturbed + at.turning * (met - undisturbed); };
+  ElementState state = element_forces(at.ring, part(at.normal_wind, whole.speed * std::sin(whole.inflow)),
+                                      part(at.tangential_wind, whole.speed * std::cos(whole.inflow)), at.polars);
+  state.axial_induction = at.turning * whole.axial_induction;
+  state.tangential_induction = at.turning * whole.tangential_induction, state.balanced = true;
+  return state;
 }
 
 BladeElementMomentum::Induced BladeElementMomentum::steady(const Place& at) const {

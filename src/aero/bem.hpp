@@ -107,9 +107,11 @@ struct ReynoldsReach {
 
 class BladeElementMomentum {
  public:
-  /// `induction`: "madsen" or "buhl". `kinematic_viscosity` [m2/s]: for polars by Reynolds number.
+  /// `induction`: "madsen" or "buhl". `kinematic_viscosity` [m2/s]: for polars by Reynolds number. `skew_momentum`: whether the
+  /// momentum balance has the wind that blows across the disc in it.
   BladeElementMomentum(const Turbine& turbine, const std::string& induction, double air_density_kg_m3,
-                       const UnsteadyFlow& unsteady = {}, double kinematic_viscosity = air_kinematic_viscosity);
+                       const UnsteadyFlow& unsteady = {}, double kinematic_viscosity = air_kinematic_viscosity,
+                       bool skew_momentum = true);
 
   /// `memory`: what the flow remembers; without it the flow is steady. `roots`, where given, one to a blade: the same loads blade
   /// by blade are added; their points are from the hub.
@@ -158,6 +160,8 @@ class BladeElementMomentum {
     Eigen::Vector3d arm, normal, ahead;   ///< from the hub [m]; units
     double normal_wind, tangential_wind;  ///< undisturbed, as solve_element has them [m/s]
     double skew, across;                  ///< as `skewed` has them
+    double cross_wind;                    ///< as solve_element has it [m/s]
+    double turning;                       ///< share of the induction: none in a rotor that hardly turns
     SectionPolars::InUse polars;          ///< at the Reynolds number of those winds
   };
   /// Velocities that the wake induces along the normal and against the motion, before skew [m/s]; filaments have skew in them.
@@ -211,6 +215,7 @@ class BladeElementMomentum {
   std::variant<InductionMadsen, InductionBuhl> induction_;
   UnsteadyFlow unsteady_;
   int blades_;
+  bool skew_momentum_;
   double air_density_, kinematic_viscosity_, hub_radius_, tip_radius_;
   std::vector<Element> elements_;
   std::optional<FreeVortexWake> wake_;

@@ -37,7 +37,7 @@ BladeLoads::BladeLoads(const Turbine& turbine, const AeroOptions& aero, const Ro
                  .stall_lag = aero.stall_lag_chords,
                  .speed_of_sound = aero.speed_of_sound_m_s,
                  .wake = wake_of(aero, air_density)},
-                aero.kinematic_viscosity(air_density)) {
+                aero.kinematic_viscosity(air_density), aero.skew_momentum) {
   if (!rotor.blade_masses.empty()) roots_.emplace(turbine, read_blade_masses(turbine, rotor.blade_masses));
   if (!rotor.blade_structure.empty()) {
     const BladeStructure structure = read_blade_structure(turbine, rotor.blade_structure);

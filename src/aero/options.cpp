@@ -118,6 +118,10 @@ const scene::Section<AeroOptions>& aero_section() {
                    {"buhl", "momentum theory, Buhl's parabola beyond 0.4"}},
                   "Induction from local loading.")
           .only_if("model", {"bem"})
+          .flag("skew_momentum", &AeroOptions::skew_momentum,
+                "Whether a rotor across the wind slows all the air that goes along its skewed wake, as wakes of filaments and "
+                "resolved air show it; else only what goes straight through, as in OpenFAST by default: less power in yaw.")
+          .only_if("model", {"bem"})
           .choice("dynamic_inflow", &AeroOptions::dynamic_inflow,
                   {{"none", "the wake follows the rotor at once"},
                    {"oye", "two filters in series behind the quasi-steady induction, after Oye"},

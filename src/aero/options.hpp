@@ -43,6 +43,7 @@ struct AeroOptions {
   std::string interpolation = "linear";
   // bem
   std::string induction = "madsen";
+  bool skew_momentum = true;
   std::string dynamic_inflow = "none", dynamic_stall = "none";
   std::optional<double> inflow_time_s;                                                       ///< absent: by wind and induction
   double wake_turns = 12.0, wake_step = 15.0 * radians_per_degree, wake_core_chords = 0.25;  ///< free_vortex; step [rad]

@@ -50,7 +50,6 @@ void list_balance(DeckImport& run, const Deck& ad) {
   // Decks of version 3 have 2 for Pitt and Peters' model, later ones 1 with SkewRedistr_Mod 1.
   if (skew != (ad.has("AFAeroMod") ? 2 : 1) || ad.integer({"SkewRedistrMod"}, 1) != 1)
     run.leave_out(fmt::format("SkewMod {}: the wake of a rotor across the wind is skewed after Pitt and Peters", skew));
-  if (ad.flag({"SkewMomCorr"}, false)) run.leave_out("SkewMomCorr: thrust and induction are in balance as without skew");
   if (const double given = ad.number({"SkewModFactor", "SkewRedistrFactor"}, factor); std::abs(given - factor) > 1e-3 * factor)
     run.leave_out(fmt::format("SkewModFactor {:g}: it is 15 pi / 32", given));
   for (const auto& [key, what] :
@@ -177,6 +176,7 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
     run.carry("polars at several Reynolds numbers (AFTabMod 2)");
   }
   list_balance(run, ad);
+  if (!ad.flag({"SkewMomCorr"}, false)) text += "skew_momentum = false\n";
   text += unsteady_flow(run, ad, turbine, wake);
   text += tower_wake(run, ad, rotor);
   text += fmt::format("\n[rotor]\nbody = \"{}\"\nturbine = \"turbine.toml\"\n", system.tower_bends ? "nacelle" : "platform");

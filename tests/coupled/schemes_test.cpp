@@ -131,7 +131,9 @@ TEST_CASE("2 N windows are N windows, a restart, and N windows, bit for bit, wit
 
 TEST_CASE("case 3: thrust falls as the hub moves downwind, by the slope of the quasi-steady rotor", "[coupled][fast]") {
   const Folder folder("case3");
-  REQUIRE(run_scene(case3, {"time.end_s=40.0", "coupling.scheme=cps2"}, folder.path()).exit_code == 0);
+  // The slope is that of a wind along the axis; across it there is another, which the leaning rotor would see too.
+  REQUIRE(run_scene(case3, {"time.end_s=40.0", "coupling.scheme=cps2", "aero.skew_momentum=false"}, folder.path()).exit_code ==
+          0);
   const scene::Columns h = scene::read_columns((folder.path() / "history.csv").string());
   const auto time = h["time_s"], thrust = h["rotor.thrust_N"], vx = h["rotor.hub_vx_m_s"], vz = h["rotor.hub_vz_m_s"],
              lean = h["platform.pitch_deg"];

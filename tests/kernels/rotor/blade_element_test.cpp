@@ -42,6 +42,39 @@ TEMPLATE_TEST_CASE("blade and momentum theory give the same force on the annulus
   CHECK(torque == Approx(4 * loss * s.tangential_induction * (1 - a) * vx * vy).epsilon(1e-7).margin(1e-9));
 }
 
+TEMPLATE_TEST_CASE("across the wind an annulus slows and turns all the air that goes along its wake", "[rotor][fast]",
+                   InductionMadsen, InductionBuhl) {
+  const double vx = GENERATE(3.0, 8.0, 16.0), vy = GENERATE(30.0, 60.0), cross = GENERATE(0.5, 5.0, 40.0);
+  const ElementState s = solve_element(ring, vx, vy, TestType(), section, cross);
+  REQUIRE(s.balanced);
+  const double a = s.axial_induction, loss = loss_factor(ring, std::sin(s.inflow)), solidity = 3 * 3.9 / (2 * pi * 60.0);
+  const double share = SkewedWake(std::atan2(cross, vx)).straight_share(a), through = vx * (1 - a) / share;
+  const double ct = solidity * s.speed * s.speed * s.normal / (vx * vx), c = ct / loss * share;
+  if (a <= 0.0 || (std::is_same_v<TestType, InductionBuhl> && a <= 0.4))
+    CHECK(ct == Approx(4 * a * loss * through / vx).epsilon(1e-8));
+  else if (std::is_same_v<TestType, InductionMadsen>)
+    CHECK(a == Approx(((0.0883 * c + 0.0586) * c + 0.246) * c).epsilon(1e-8));
+  CHECK(solidity * s.speed * s.speed * s.tangential ==
+        Approx(4 * loss * s.tangential_induction * through * vy).epsilon(1e-7).margin(1e-9));
+  // The more wind blows across, the less it is slowed; from the side alone hardly.
+  CHECK(std::abs(a) < std::abs(solve_element(ring, vx, vy, TestType(), section).axial_induction));
+  CHECK(solve_element(ring, 0.0, vy, TestType(), section, cross).speed == Approx(vy).epsilon(0.01));
+}
+
+TEST_CASE("a wake across the wind leans as a skewed cylinder of vortices does", "[rotor][fast]") {
+  // tan(chi) = (tan(gamma) - a tan(chi/2)) / (1 - a): Burton et al. (2011), section 3.10.6.
+  for (const double degrees : {5.0, 20.0, 40.0, 60.0, 80.0, 89.0})
+    for (const double a : {0.0, 0.1, 0.2, 0.35}) {
+      const double across = std::tan(degrees * radians_per_degree),
+                   found = std::atan(SkewedWake(degrees * radians_per_degree).lean(a));
+      double chi = found;
+      for (int n = 0; n < 200; ++n) chi = std::atan((across - a * std::tan(0.5 * chi)) / (1 - a));
+      CAPTURE(degrees, a);
+      CHECK(found == Approx(chi).epsilon(0.01));
+    }
+  CHECK(SkewedWake(0.5 * pi).straight_share(0.3) < 1e-6);
+}
+
 TEST_CASE("the two inductions agree with momentum theory at light loading and differ beyond", "[rotor][fast]") {
   const double loss = GENERATE(0.5, 1.0), k = GENERATE(-0.5, 0.01, 0.1, 0.3);
   CHECK(InductionBuhl().slowdown(k, loss) == Approx(1 + k));
@@ -96,8 +129,9 @@ TEST_CASE("no wind, wind from anywhere, standstill and feather give bounded forc
               .chord = pick(0.1, 6.0),
               .setting = pick(-pi, pi)};
     const double vx = n % 7 == 0 ? 0.0 : pick(-60.0, 60.0), vy = n % 5 == 0 ? 0.0 : pick(-100.0, 100.0);
-    const ElementState e =
-        n % 2 ? solve_element(s, vx, vy, InductionMadsen(), section) : solve_element(s, vx, vy, InductionBuhl(), section);
+    const double cross = n % 3 == 0 ? 0.0 : pick(0.0, 60.0);
+    const ElementState e = n % 2 ? solve_element(s, vx, vy, InductionMadsen(), section, cross)
+                                 : solve_element(s, vx, vy, InductionBuhl(), section, cross);
     REQUIRE(std::isfinite(e.speed));
     REQUIRE(std::abs(e.normal) < 4.0);
     REQUIRE(e.speed <= 1.01 * std::hypot(vx, vy));  // a wake with many times the wind's speed would be a false balance
@@ -116,12 +150,18 @@ TEST_CASE("a blade that drives still air draws it along", "[rotor][fast]") {
   CHECK(e.normal > 0.0);
   const double near = solve_element(s, 1e-6, 60.0, InductionMadsen(), section).normal;
   CHECK(near == Approx(e.normal).epsilon(1e-4));
+  // So it does against a weak wind, in whose place the other balance has air that stands.
+  CHECK(solve_element(s, 0.1, 60.0, InductionMadsen(), section).normal == Approx(e.normal).epsilon(0.02));
+  CHECK(solve_element(s, 1.0, 60.0, InductionMadsen(), section).speed == Approx(60.0).epsilon(0.01));
+  // A breath of wind across is nothing beside what it draws.
+  for (const double wind : {0.0, 1e-6, 1e-3})
+    CHECK(solve_element(s, wind, 60.0, InductionMadsen(), section, 0.1).normal == Approx(e.normal).epsilon(0.01));
 }
 
 TEST_CASE("a skewed wake takes from the downwind side what it leaves to the upwind side", "[rotor][fast]") {
   const ElementState level = solve_element(ring, 11.0, 60.0, InductionMadsen(), section);
   const double skew = 30 * radians_per_degree,
-               expected = 15 * pi / 32 * std::tan(0.5 * (0.6 * level.axial_induction + 1) * skew) * 0.67;
+               expected = 15 * pi / 32 * SkewedWake(skew).tangent_of_half(level.axial_induction) * 0.67;
   const double down = skewed(ring, level, 11.0, 60.0, skew, 0.67, section).axial_induction;
   const double up = skewed(ring, level, 11.0, 60.0, skew, -0.67, section).axial_induction;
   CHECK(down == Approx(level.axial_induction * (1 + expected)));

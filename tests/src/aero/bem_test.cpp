@@ -74,15 +74,15 @@ TEST_CASE("thrust and power follow the rigid HAWCStab2 table of the DTU 10-MW tu
   CHECK(got.power == Approx(row.power).epsilon(within));
 }
 
-TEST_CASE("at a tip-speed ratio of 14 Buhl's correction follows that table too; Madsen's polynomial is 8 per cent off in power",
+TEST_CASE("at a tip-speed ratio of 14 Buhl's correction follows that table too; Madsen's polynomial is 9 per cent off in power",
           "[aero][fast]") {
   const auto at4 = [](const char* induction) {
     return run(BladeElementMomentum(dtu(), induction, 1.225), 4.0, 6.0, 2.88, 5 * radians_per_degree);
   };
   CHECK(at4("buhl").thrust == Approx(209.99).epsilon(0.03));
   CHECK(at4("buhl").power == Approx(254.26).epsilon(0.03));
-  CHECK(at4("madsen").thrust == Approx(209.99).epsilon(0.04));
-  CHECK(at4("madsen").power == Approx(254.26).epsilon(0.09));
+  CHECK(at4("madsen").thrust == Approx(209.99).epsilon(0.045));
+  CHECK(at4("madsen").power == Approx(254.26).epsilon(0.1));
 }
 
 TEST_CASE("spanwise loads agree with an independent computation on the same tables", "[aero][fast]") {
@@ -145,17 +145,53 @@ TEST_CASE("turning the scene about the vertical turns the load; a third of a tur
 }
 
 TEST_CASE("wind that comes askew yaws the rotor into it and costs power", "[aero][fast]") {
-  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
-  const double yaw = 30 * radians_per_degree;
-  Vector3d force = Vector3d::Zero(), moment = force;
-  for (int i = 0; i < 8; ++i) {
-    const DiscLoad load = bem({11 * std::cos(yaw), 11 * std::sin(yaw), 0}, spinning(8.836, 0.0, 0.0, 2 * pi / 3 * i / 8));
-    force += load.force / 8, moment += load.moment / 8;
+  // Power goes with cos^n of the yaw. Wakes of filaments and lines in resolved air have n 1.3 to 1.9 from 10 to 30 degrees; with
+  // the normal wind alone in the balance it is near 3.
+  const std::string induction = GENERATE("madsen", "buhl");
+  const auto exponent = [&](bool skew_momentum, double degrees) {
+    const BladeElementMomentum bem(dtu(), induction, 1.225, {}, air_kinematic_viscosity, skew_momentum);
+    const double yaw = degrees * radians_per_degree;
+    Vector3d moment = Vector3d::Zero();
+    for (int i = 0; i < 8; ++i)
+      moment += bem({11 * std::cos(yaw), 11 * std::sin(yaw), 0}, spinning(8.836, 0.0, 0.0, 2 * pi / 3 * i / 8)).moment / 8;
+    CHECK(moment.z() > 0.0);  // the side that lies upwind carries more: the axis turns towards the wind's direction
+    return std::log(moment.x() * 8.836 * rad_s_per_rpm / 1e3 / run(bem, 11.0, 8.836).power) / std::log(std::cos(yaw));
+  };
+  for (const double degrees : {10.0, 20.0, 30.0}) {
+    CAPTURE(induction, degrees);
+    CHECK(exponent(true, degrees) > 1.3);
+    CHECK(exponent(true, degrees) < 2.0);
+    CHECK(exponent(false, degrees) > 2.5);
   }
-  const double ratio = moment.x() * 8.836 * rad_s_per_rpm / 1e3 / run(bem, 11.0, 8.836).power;
-  CHECK(ratio < 0.85);
-  CHECK(ratio > 0.5);       // cos^3 of 30 degrees is 0.65
-  CHECK(moment.z() > 0.0);  // the side that lies upwind carries more: the axis turns towards the wind's direction
+}
+
+TEST_CASE("wherever the wind comes from a parked rotor has the sum of its sections, each in the wind as it is", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), GENERATE("madsen", "buhl"), 1.225);
+  const DiscMotion parked = spinning(0.0, 90.0);
+  for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0, 90.0, 92.0, 100.0, 150.0, 180.0}) {
+    const double yaw = degrees * radians_per_degree;
+    const Vector3d wind(50 * std::cos(yaw), 50 * std::sin(yaw), 0);
+    Vector3d sum = Vector3d::Zero();
+    for (int b = 0; b < 3; ++b) {
+      const Vector3d out = blade_direction(parked, b, 3), ahead = parked.ahead(out);
+      for (std::size_t e = 0; e < bem.elements(); ++e) {
+        const auto& s = bem.section(e);
+        const Vector3d normal = s.normal_axial * parked.axis + s.normal_radial * out;
+        const ElementState met =
+            element_forces(bem.annulus(e, parked.blade_pitch), wind.dot(normal), -wind.dot(ahead), bem.polars(e, wind.norm()));
+        sum += 0.5 * 1.225 * met.speed * met.speed * s.chord * s.length * (met.normal * normal + met.tangential * ahead);
+      }
+    }
+    CAPTURE(degrees);
+    CHECK((bem(wind, parked).force - sum).norm() < 1e-9 * sum.norm());
+  }
+}
+
+TEST_CASE("a rotor that comes to turn comes into its induction between tip-speed ratios of 1 and 2", "[aero][fast]") {
+  const BladeElementMomentum bem(dtu(), "madsen", 1.225);
+  const double wind = 10.0, rpm_at_one = wind / bem.tip_radius() / rad_s_per_rpm;
+  const auto thrust = [&](double ratio) { return bem({wind, 0, 0}, spinning(ratio * rpm_at_one)).force.x(); };
+  for (const double limit : {1.0, 2.0}) CHECK(thrust(limit - 1e-6) == Approx(thrust(limit + 1e-6)).epsilon(1e-4));
 }
 
 TEST_CASE("a parked rotor in a storm, one in still air and one with the wind behind it have finite loads", "[aero][fast]") {

@@ -95,7 +95,7 @@ TEST_CASE("settings of a deck that the scene has not, and that change its loads,
   };
   for (const auto& [file, line, told] :
        {Setting{"ad.dat", "0 Skew_Mod", "SkewMod 0"}, Setting{"ad.dat", "1 AFAeroMod\n1 SkewMod", "SkewMod 1"},
-        Setting{"ad.dat", "1 Skew_Mod\n0 SkewRedistr_Mod", "SkewMod 1"}, Setting{"ad.dat", "True SkewMomCorr", "SkewMomCorr"},
+        Setting{"ad.dat", "1 Skew_Mod\n0 SkewRedistr_Mod", "SkewMod 1"},
         Setting{"ad.dat", "0.7 SkewModFactor", "SkewModFactor 0.7"}, Setting{"ad.dat", "False TipLoss", "TipLoss"},
         Setting{"ad.dat", "False HubLoss", "HubLoss"}, Setting{"ad.dat", "False TanInd", "TanInd"},
         Setting{"ad.dat", "False AIDrag", "AIDrag"}, Setting{"ad.dat", "False TIDrag", "TIDrag"},
