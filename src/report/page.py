@@ -11,6 +11,7 @@ import figures
 import flow_pictures
 import html_page
 import impact
+import motions
 import quantities
 import rotor_pictures
 import sea_pictures
@@ -47,7 +48,7 @@ def _span(run):
         if any(text.startswith("significant height") for text in said):
             return f"Over {run.mean_range()[1]}."
         return "Over the last two waves." if any(text.startswith("wave height") for text in said) else "Of the whole run."
-    if decay.decays(run):
+    if motions.decays(run):
         return "Period and damping from the peaks of the whole run."
     count = verdict.waves_in_means(run)
     swings = " ± standard deviation" if any("±" in value for _, value, _ in verdict.answers(run)) else ""

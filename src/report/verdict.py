@@ -6,6 +6,7 @@ import numpy as np
 
 import decay
 import impact
+import motions
 import quantities
 import told_bodies
 import words
@@ -143,7 +144,8 @@ def answers(run):
     if not len(run.time):
         return []
     chosen, said = run.mean_range()[0], []
-    mean = lambda name: words.mean(run.time[chosen], run.column(name)[chosen])
+    values_of = lambda name: motions.values_of(run, name)
+    mean = lambda name: words.mean(run.time[chosen], values_of(name)[chosen])
     if is_steady(run):   # what a march has come to is at its end
         mean = lambda name: float(run.column(name)[-1])
 
@@ -154,7 +156,7 @@ def answers(run):
                 return
             value = 0.0 if abs(value) <= run.round_off(name) else value
             unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
-            swing = words.deviation(run.time[chosen], run.column(name)[chosen]) if function is mean and not is_steady(run) else 0.0
+            swing = words.deviation(run.time[chosen], values_of(name)[chosen]) if function is mean and not is_steady(run) else 0.0
             swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
             said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
@@ -169,15 +171,15 @@ def answers(run):
                 span = f"mean over {words.short(over)}" if over else "of one row"
                 add(f"largest load of the water{_of(body, several)}, up, {span}", name, lambda name, means=means: float(np.nanmax(means)))
     elif sort in ("floating turbine", "bodies"):
-        swings = decay.decays(run)
+        swings = motions.decays(run)
         for d in swings[:2]:   # what a decay test is made for
             motion = quantities.AXES[quantities.quantity_of(d.column)] + _of(d.column.rpartition(".")[0], several)
             said.append((f"{motion}, period", words.number(d.period), "s"))
             if d.damping > 0.0:
                 said.append((f"{motion}, damping of critical", words.number(100.0 * d.damping, 3), "%"))
         for body in of_headline[:MOST_BODIES] if not swings else ():
-            for text, quantity in (("surge", "x_m"), ("heave", "z_m"), ("pitch", "pitch_deg")):
-                add(text + _of(body, several), f"{body}.{quantity}")
+            for name in motions.moved(run, body):
+                add(motions.spoken(name) + _of(body, several), name)
     for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient"), *_of_rotors(run, ("electrical power", "electrical_power_W"))):
         add(text, name)
@@ -641,26 +643,15 @@ def _marched(run):
 
 def _moving_bodies(run, between, chosen):
     """In words: motions of bodies whose means differ between the halves of their stretch."""
+    bodies, towed = told_bodies.told(run)[0], told_bodies.towed(run)
     random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
-    bodies, scene, moving = told_bodies.told(run)[0], Scene3d(run), []
-    for body in [b for b in bodies if b not in told_bodies.towed(run)]:
-        shaped = scene.corners(body) if body in scene.bodies else []
-        height = float(np.ptp(shaped[:, 2])) if len(shaped) else math.inf
-        for text, name, least in (("surge", f"{body}.x_m", 0.02), ("heave", f"{body}.z_m", 0.02), ("pitch", f"{body}.pitch_deg", 0.05)):
-            if name not in run.columns:
-                continue
-            values = run.column(name)
-            change = between(values)
-            # How far a body is from where it is described says little of how far it still goes to and fro.
-            share = 0.02 if text == "surge" else 0.1
-            allowed = max(least, share * abs(words.mean(run.time[chosen], values[chosen])))
-            if text == "heave":   # of a small body a small way is much
-                allowed = min(allowed, 0.05 * height)
-            if random:   # halves of a random motion differ by chance, as those of a load
-                allowed = max(allowed, 0.2 * words.deviation(run.time[chosen], values[chosen]))
-            if abs(change) > allowed:
-                moving.append(f"{text}{_of(body, len(bodies) > 1)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}")
-    return moving
+    return [f"{_motion(name, bodies)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}"
+            for name, change in motions.changing(run, [b for b in bodies if b not in towed], between, chosen, random)]
+
+
+def _motion(name, bodies):
+    """'sway', of several bodies 'sway of heavy'."""
+    return motions.spoken(name) + _of(name.rpartition(".")[0], len(bodies) > 1)
 
 
 def _settled(run):
@@ -674,8 +665,12 @@ def _settled(run):
     first, second = np.array_split(chosen, 2)
     if is_impact(run):
         return Check("good", "Settled", "an impact: its way and its loads count, no mean does")
-    if decay.decays(run):
-        return Check("good", "Settled", "a free motion, which nothing drives: its means say nothing, its period and damping do")
+    swinging = [_motion(name, told_bodies.told(run)[0]) for name in motions.still_swinging(run)]
+    still = f"still swinging in {' and '.join(swinging)}, too few times for a period and a damping: run on (time.end_s)" if swinging else ""
+    if motions.decays(run):
+        return Check("good", "Settled", "a free motion, which nothing drives: its means say nothing, its period and damping do" + (f"; {still}" if still else ""))
+    if still:
+        return Check("warn", "Settled", still)
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
     if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
         begin, end = run.time[chosen[0]], run.time[chosen[-1]]
@@ -723,11 +718,10 @@ def _whole_waves(run):
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
     chosen, off = run.mean_range()[0], []
     tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
-    motions = (("surge", "x_m", 0.02), ("heave", "z_m", 0.02), ("pitch", "pitch_deg", 0.05))
-    for text, name, least in (*((text + _of(body, len(bodies) > 1), f"{body}.{quantity}", least) for body in bodies for text, quantity, least in motions),
+    for text, name, least in (*((_motion(name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body)),
                               *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
-            values = run.column(name)
+            values = motions.values_of(run, name)
             all_of_it, waves = words.mean(run.time[chosen], values[chosen]), words.mean(run.time[tail], values[tail])
             if abs(all_of_it - waves) > max(least, 0.1 * abs(waves)):
                 unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(waves))

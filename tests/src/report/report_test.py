@@ -639,6 +639,54 @@ class PartsTest(unittest.TestCase):
                     found = {c.title: c.level for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"]
                     self.assertEqual(found, level if far else "warn")
 
+    def test_all_six_motions_are_told_and_judged(self):
+        t = 0.1 * np.arange(1201)
+        wave, drift = np.sin(2 * np.pi * t / 10.0), np.tanh((t - 90.0) / 5.0)
+        scene = "[waves]\nmodel = 'airy'\nheight_m = 4.0\nperiod_s = 10.0\n[bodies.spar]\nmass_kg = 1.0\n"
+        along = {"spar.x_m": 0.2 * wave, "spar.y_m": 0 * t, "spar.z_m": 0.1 * wave, "spar.roll_deg": 0 * t, "spar.pitch_deg": 0.4 * wave, "spar.yaw_deg": 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            def told(**columns):
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t} | along | {f"spar.{name}": values for name, values in columns.items()}, scene=scene, log="",
+                                    ranges={"end": {"from_s": 60.0, "to_s": 120.0}})
+                run = RunData(pathlib.Path(folder))
+                return [text for text, _, _ in verdict.answers(run)], {c.title: c for c in verdict.health(run)}["Settled"]
+
+            self.assertEqual(told()[0], ["surge", "heave", "pitch"])
+            self.assertEqual(told()[1].level, "good")
+            # Along y: what nothing drives is left out.
+            across = {"x_m": -7e-4 + 4e-4 * wave, "y_m": 0.2 * wave + 0.08 * drift, "roll_deg": 0.4 * wave, "pitch_deg": -8e-6 + 4e-6 * wave}
+            said, settled = told(**across)
+            self.assertEqual(said, ["sway", "heave", "roll"])
+            self.assertEqual((settled.level, "sway by 0.14 m changed" in settled.text), ("warn", True))
+            for name, size, change in (("roll_deg", 0.02, False), ("roll_deg", 0.05, True), ("yaw_deg", 0.05, True), ("y_m", 0.008, False), ("y_m", 0.02, True)):
+                with self.subTest(name, size=size):
+                    self.assertEqual(told(**{name: size * drift})[1].level, "warn" if change else "good")
+            # A yaw that passes half a turn has a mean all the same.
+            said, settled = told(yaw_deg=(180.0 + 5.0 * wave + 180.0) % 360.0 - 180.0)
+            self.assertEqual(settled.level, "good")
+
+    def test_a_free_body_with_too_few_swings_still_swings(self):
+        t = 0.01 * np.arange(191)
+        ripple = 1e-4 * np.sin(40.0 * t)
+        scene = "[sea]\nmodel = 'sph'\n[bodies.ship]\nmass_kg = 1.0\n"
+        with tempfile.TemporaryDirectory() as folder:
+            def settled(roll, more="", **columns):
+                table = {"time_s": t, "ship.z_m": ripple, "ship.roll_deg": roll + ripple, "ship.pitch_deg": 0.005 + 0 * t}
+                synthetic_run.write(pathlib.Path(folder), table=table | {f"ship.{name}": values for name, values in columns.items()}, scene=scene + more, log="",
+                                    ranges={"end": {"from_s": 1.26, "to_s": 1.9}})
+                return {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}["Settled"]
+
+            short = 8.0 * np.exp(-0.1 * t) * np.cos(2 * np.pi * (t - 0.05) / 0.65)
+            for values in (8.0 * np.cos(2 * np.pi * t / 1.3), 8.0 * np.exp(-0.3 * t) * np.cos(2 * np.pi * t / 0.9)):
+                found = settled(values)
+                self.assertEqual((found.level, found.text), ("warn", "still swinging in roll, too few times for a period and a damping: run on (time.end_s)"))
+            self.assertIn("a free motion", settled(short).text)
+            found = settled(8.0 * np.cos(2 * np.pi * t / 1.3), z_m=0.3 * np.exp(-0.1 * t) * np.cos(2 * np.pi * t / 0.4))
+            self.assertEqual(found.level, "good")
+            self.assertIn("; still swinging in roll", found.text)
+            self.assertNotIn("swing", settled(8.0 * np.exp(-6.0 * t) * np.cos(2 * np.pi * t / 1.3)).text)   # it has come to rest
+            self.assertNotIn("swing", settled(8.0 * np.cos(2 * np.pi * t / 1.3), "[waves]\nmodel = 'airy'\nheight_m = 0.1\nperiod_s = 0.2\n").text)
+
     def test_joints_that_come_apart_are_told(self):
         t = 0.1 * np.arange(100)
         for apart, level in ((1e-14, "good"), (1e-4, "warn"), (1.0, "bad")):
