@@ -10,13 +10,17 @@ import quantities
 LEAST_SWINGS = 4   # half periods whose ranges are compared
 SMALLEST = 0.02    # of the first range: what is smaller is noise or another motion
 GROWTH = 1.002     # of the ranges of a motion without damping: peaks between rows are known so well
+DIFFER = 1.5       # times: damping of the first and of the last swings that is not one
+SCATTER = 0.3      # of the mean decrement: what the decrements of one motion may be off a line over the swing by
 
 
 class Decay:
-    """Of one motion: `period` [s], `damping` (of critical) with its value over the first and the last swings, `swings` (half periods) it is taken from."""
+    """Of one motion: `period` [s], `damping` (of critical) with its value over the first and the last swings, `swings` (half periods) it is taken from.
+    `falling`: damping falls with the swing, as drag has it; `several`: the swings do not fall as those of one motion. No single damping holds then."""
 
     def __init__(self, column, period, damping, first, last, swings):
         self.column, self.period, self.damping, self.first, self.last, self.swings = column, period, damping, first, last, swings
+        self.falling = self.several = False
 
 
 def extremes(time, values):
@@ -59,8 +63,22 @@ def decay_of(time, values, column=""):
     falls = -np.diff(np.log(ranges))
     zeta = lambda fall: fall / math.hypot(math.pi, fall)
     part = max(1, len(falls) // 3)
-    return Decay(column, 2.0 * float((at[-1] - at[0]) / (len(at) - 1)), zeta(float(np.log(ranges[0] / ranges[-1]) / len(falls))), zeta(float(falls[:part].mean())),
-                 zeta(float(falls[-part:].mean())), len(ranges))
+    found = Decay(column, 2.0 * float((at[-1] - at[0]) / (len(at) - 1)), zeta(float(np.log(ranges[0] / ranges[-1]) / len(falls))), zeta(float(falls[:part].mean())),
+                  zeta(float(falls[-part:].mean())), len(ranges))
+    unlike = max(found.first, found.last) > DIFFER * min(found.first, found.last) + zeta(math.log(GROWTH))
+    found.several = _off_line(falls, np.sqrt(ranges[1:] * ranges[:-1])) > SCATTER * falls.mean() + math.log(GROWTH) or (unlike and found.last > found.first)
+    found.falling = unlike and not found.several
+    return found
+
+
+def _off_line(falls, sizes):
+    """Root mean square of what decrements are off a line over the swing, a + b size: a of linear damping, b of quadratic drag, neither below zero."""
+    (a, b), *_ = np.linalg.lstsq(np.column_stack([np.ones_like(sizes), sizes]), falls, rcond=None)
+    if b < 0.0:
+        a, b = falls.mean(), 0.0
+    elif a < 0.0:
+        a, b = 0.0, float(falls @ sizes / (sizes @ sizes))
+    return float(np.sqrt(np.mean((falls - a - b * sizes) ** 2)))
 
 
 def is_driven(joint):

@@ -91,26 +91,32 @@ def _half_swings(values, least):
 
 
 def still_swinging(run):
-    """Columns of the largest motion of each kind, of bodies that nothing drives, that swings on at the end, and too few times for a period and a damping."""
+    """(columns of the largest motion of each kind, of bodies that nothing drives, that swings on at the end, and too few times for a period and a damping;
+    those that swing often enough, but not as one motion)."""
     if not decay.is_free(run) or len(run.time) < 20:
-        return []
-    scene, found, chosen = Scene3d(run), [], run.mean_range()[0]
+        return [], []
+    scene, few, mixed, chosen = Scene3d(run), [], [], run.mean_range()[0]
+    told = {d.column: d for d in decay.decays(run)}
     for body in told_bodies.told(run)[0]:
         for kind in KINDS:
             name = max((n for n in columns_of(run, body) if n.endswith(kind)), key=lambda n: np.ptp(values_of(run, n)), default=None)
             if name is None or not np.isfinite(values := values_of(run, name)).all():
                 continue
             whole = float(np.ptp(values))
-            swings = float(np.ptp(values[chosen])) > max(_allowed(run, scene, body, name, chosen), AT_REST * whole)
-            if swings and 0 <= _half_swings(values, HALF_SWING * whole) < decay.LEAST_SWINGS:
-                found.append(name)
-    return found
+            if not float(np.ptp(values[chosen])) > max(_allowed(run, scene, body, name, chosen), AT_REST * whole):
+                continue
+            count = _half_swings(values, HALF_SWING * whole)
+            if 0 <= count < decay.LEAST_SWINGS:
+                few.append(name)
+            elif count > 0 and name not in told:
+                mixed.append(name)
+    return few, mixed
 
 
 def decays(run):
     """Free decays that say something: not those of slight motions while a larger one still swings."""
     found = decay.decays(run)
-    if not found or not still_swinging(run):
+    if not found or not any(still_swinging(run)):
         return found
     scene, chosen = Scene3d(run), run.mean_range()[0]
     return [d for d in found if np.ptp(values_of(run, d.column)) > _allowed(run, scene, d.column.rpartition(".")[0], d.column, chosen)]

@@ -48,8 +48,8 @@ def _span(run):
         if any(text.startswith("significant height") for text in said):
             return f"Over {run.mean_range()[1]}."
         return "Over the last two waves." if any(text.startswith("wave height") for text in said) else "Of the whole run."
-    if motions.decays(run):
-        return "Period and damping from the peaks of the whole run."
+    if free := motions.decays(run):
+        return f"{'Mean period' if all(d.several for d in free) else 'Period and damping'} from the peaks of the whole run."
     count = verdict.waves_in_means(run)
     swings = " ± standard deviation" if any("±" in value for _, value, _ in verdict.answers(run)) else ""
     return f"Means{swings} over {run.mean_range()[1]}" + (f", {number(count, 3)} waves" if math.isfinite(count) else "") + (
@@ -428,7 +428,8 @@ def decays(run):
         body, _, quantity = d.column.rpartition(".")
         own = modes_of(run, body).get(quantities.AXES[quantities.quantity_of(d.column)])
         change = f"{100.0 * d.first:.2f} to {100.0 * d.last:.2f} %" if abs(d.first - d.last) > 0.1 * abs(d.damping) else "–"
-        rows.append([_spoken(run, d.column), f"{d.swings / 2:g}", number(d.period), number(1.0 / own) if own else "–", f"{100.0 * d.damping:.2f} %", change])
+        single = "of several motions" if d.several else "falls" if d.falling else f"{100.0 * d.damping:.2f} %"
+        rows.append([_spoken(run, d.column), f"{d.swings / 2:g}", number(d.period), number(1.0 / own) if own else "–", single, change])
     if not rows:
         return ""
     return parts.table(["Motion", "Swings", "Period [s]", "Of the mode [s]", "Damping, of critical", "First to last third"], rows) + safe(

@@ -174,9 +174,10 @@ def answers(run):
         swings = motions.decays(run)
         for d in swings[:2]:   # what a decay test is made for
             motion = quantities.AXES[quantities.quantity_of(d.column)] + _of(d.column.rpartition(".")[0], several)
-            said.append((f"{motion}, period", words.number(d.period), "s"))
-            if d.damping > 0.0:
-                said.append((f"{motion}, damping of critical", words.number(100.0 * d.damping, 3), "%"))
+            said.append((f"{motion}, {'mean period of several motions' if d.several else 'period'}", words.number(d.period), "s"))
+            if d.damping > 0.0 and not d.several:
+                of = f"{words.number(100.0 * d.first, 3)} to {words.number(100.0 * d.last, 3)}" if d.falling else words.number(100.0 * d.damping, 3)
+                said.append((f"{motion}, damping of critical" + (", first to last swings" if d.falling else ""), of, "%"))
         for body in of_headline[:MOST_BODIES] if not swings else ():
             for name in motions.moved(run, body):
                 add(motions.spoken(name) + _of(body, several), name)
@@ -654,6 +655,19 @@ def _motion(name, bodies):
     return motions.spoken(name) + _of(name.rpartition(".")[0], len(bodies) > 1)
 
 
+def _swings(run):
+    """(the check of bodies that swing freely, None where their means count; in words: which of their swings are of several motions)."""
+    (few, mixed), free = motions.still_swinging(run), motions.decays(run)
+    named = lambda columns: " and ".join(_motion(name, quantities.bodies_of(run.columns)) for name in columns)
+    mixed = [*mixed, *(d.column for d in free if d.several)]
+    mixed = f"; several motions are in {named(mixed)}, whose swings do not fall as those of one: no single damping holds" if mixed else ""
+    still = f"still swinging in {named(few)}, too few times for a period and a damping: run on (time.end_s)" if few else ""
+    if free:
+        told = "its swings do" if all(d.several for d in free) else "its period and damping do"
+        return Check("good", "Settled", f"a free motion, which nothing drives: its means say nothing, {told}{mixed}" + (f"; {still}" if still else "")), mixed
+    return Check("warn", "Settled", still + mixed) if still else None, mixed
+
+
 def _settled(run):
     """Do the means stand for more than their stretch? Halves of the range compared, for all figures that the run answers with."""
     if len(run.time) < 20 or is_steady(run) or kind(run) in ("tank", "run"):
@@ -665,12 +679,9 @@ def _settled(run):
     first, second = np.array_split(chosen, 2)
     if is_impact(run):
         return Check("good", "Settled", "an impact: its way and its loads count, no mean does")
-    swinging = [_motion(name, told_bodies.told(run)[0]) for name in motions.still_swinging(run)]
-    still = f"still swinging in {' and '.join(swinging)}, too few times for a period and a damping: run on (time.end_s)" if swinging else ""
-    if motions.decays(run):
-        return Check("good", "Settled", "a free motion, which nothing drives: its means say nothing, its period and damping do" + (f"; {still}" if still else ""))
-    if still:
-        return Check("warn", "Settled", still)
+    free, mixed = _swings(run)
+    if free:
+        return free
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
     if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
         begin, end = run.time[chosen[0]], run.time[chosen[-1]]
@@ -694,8 +705,8 @@ def _settled(run):
     if moving:
         return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed"
                      + (": turbulence takes a longer stretch, 600 s as a rule (time.end_s, output.means_over_s)" if _value(run.scene, "wind", "turbulence") else
-                        ": run on (time.end_s), or leave more of the start out (output.means_over_s)"))
-    return Check("good", "Settled", "means of both halves of their stretch agree")
+                        ": run on (time.end_s), or leave more of the start out (output.means_over_s)") + mixed)
+    return Check("good", "Settled", "means of both halves of their stretch agree" + mixed)
 
 
 def waves_in_means(run):

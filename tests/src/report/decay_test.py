@@ -22,6 +22,15 @@ def swing(t, period, zeta, size=1.0, rest=0.0):
     return rest + size * np.exp(-zeta / np.sqrt(1.0 - zeta**2) * omega * t) * np.cos(omega * t)
 
 
+def through(ranges, period=10.0):
+    """(time, values) of a motion with these ranges from peak to trough, half a cosine between turns."""
+    turns = np.cumsum([0.0] + [(-1.0) ** n * size for n, size in enumerate(ranges)])
+    turns = np.concatenate([[turns[0] + ranges[0]], turns, [turns[-1] + (turns[-2] - turns[-1])]])
+    at = np.linspace(0.0, len(turns) - 1.0, 200 * len(turns))
+    n = np.minimum(at.astype(int), len(turns) - 2)
+    return 0.5 * period * at, turns[n] + (turns[n + 1] - turns[n]) * 0.5 * (1.0 - np.cos(np.pi * (at - n)))
+
+
 class DecayTest(unittest.TestCase):
     def test_a_damped_oscillator_gives_its_period_and_damping(self):
         for rows in (600, 6000):
@@ -41,6 +50,29 @@ class DecayTest(unittest.TestCase):
             rows.append(x)
         found = decay.decay_of(dt * np.arange(1, 12001), np.array(rows))
         self.assertGreater(found.first, 2.0 * found.last)
+
+    def test_swings_that_do_not_fall_as_those_of_one_motion_are_told_to_be_of_several(self):
+        even = 3.0 * 0.8 ** np.arange(10)
+        drag = 3.0 / (1.0 + 0.25 * np.arange(10))   # of quadratic drag: 1 / range grows by as much each time
+        beats = np.array([3.0, 1.61, 0.93, 0.60, 0.36, 0.28, 0.27, 0.26, 0.24, 0.18])   # a spar on bridles in yaw
+        ripple = even * (1.0 + 0.02 * (-1.0) ** np.arange(10))   # of particles
+        stiffens = np.concatenate([3.0 * 0.95 ** np.arange(5), 3.0 * 0.95 ** 4 * 0.7 ** np.arange(1, 6)])
+        for ranges, several, falling, said in ((even, False, False, ["heave, period", "heave, damping of critical"]), (ripple, False, False, ["heave, period", "heave, damping of critical"]),
+                                               (drag, False, True, ["heave, period", "heave, damping of critical, first to last swings"]),
+                                               (beats, True, False, ["heave, mean period of several motions"]),
+                                               (stiffens, True, False, ["heave, mean period of several motions"])):
+            with self.subTest(ranges), tempfile.TemporaryDirectory() as folder:
+                t, values = through(ranges)
+                found = decay.decay_of(t, values)
+                self.assertEqual((found.several, found.falling), (several, falling))
+                self.assertAlmostEqual(found.period, 10.0, delta=0.01)
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "float.z_m": values}, log="", scene="[bodies.float]\nmass_kg = 1.0\n")
+                run = RunData(pathlib.Path(folder))
+                self.assertEqual([text for text, *_ in verdict.answers(run)], said)
+                settled = next(c for c in verdict.health(run) if c.title == "Settled").text
+                self.assertEqual("several motions are in heave, whose swings do not fall as those of one: no single damping holds" in settled, several)
+                self.assertEqual("of several motions" in page.decays(run), several)
+                self.assertEqual(page._span(run), "Mean period from the peaks of the whole run." if several else "Period and damping from the peaks of the whole run.")
 
     def test_what_is_no_decay_is_left_out(self):
         t = np.linspace(0.0, 100.0, 2001)
@@ -63,6 +95,15 @@ class DecayTest(unittest.TestCase):
             self.assertEqual([(text, unit) for text, _, unit in verdict.answers(run)], [("heave, period", "s"), ("heave, damping of critical", "%")])
             settled = next(c for c in verdict.health(run) if c.title == "Settled")
             self.assertEqual((settled.level, "free" in settled.text), ("good", True))
+
+    def test_a_free_body_that_beats_is_told_to_swing_in_several_motions(self):
+        t = 0.1 * np.arange(1500)
+        table = {"time_s": t, "float.x_m": 0 * t, "float.z_m": swing(t, 10.0, 0.01) + swing(t, 11.5, 0.01)}
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, log="", scene="[bodies.float]\nmass_kg = 1.0\n")
+            run = RunData(pathlib.Path(folder))
+            self.assertEqual(decay.decays(run), [])
+            self.assertIn("several motions are in heave, whose swings do not fall as those of one", next(c.text for c in verdict.health(run) if c.title == "Settled"))
 
     def test_a_page_tells_of_a_decay_and_of_none_in_waves(self):
         t = 0.1 * np.arange(1500)
