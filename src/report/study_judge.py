@@ -22,6 +22,13 @@ def percent(value):
     return f"{100.0 * value:.3g} %"
 
 
+def over(gaps, scale):
+    """Differences in units of a scale. Over one of zero those that are all zero stay so, and others have no meaning."""
+    if not scale:
+        return [] if any(gaps) else gaps
+    return [g / scale for g in gaps]
+
+
 def target_words(metric):
     """'2 % of the mean of platform.pitch_deg'."""
     what = f"{WORDS[metric['measure']]} {metric['column']}"
@@ -41,6 +48,7 @@ class Judge:
         self.by_name = {r["name"]: r for r in self.rungs}
         self.limits = {}  # (metric, group) -> Richardson's words
         self.references = {}
+        self.of_zero = {}  # metrics whose relative error has no meaning
         self.quantities = {r["name"]: self._quantities(r) for r in self.rungs}
         self.costs = {r["name"]: self._cost(r) for r in self.rungs}
         self.estimates = {r["name"]: [self._estimate(r, m) for m in range(len(self.metrics))] for r in self.rungs}
@@ -169,10 +177,13 @@ class Judge:
         metric = self.metrics[m]
         gaps, own, allowance = self._differences(rung, m)
         scale = abs(own) if metric["relative"] else metric["divide_by"]
-        if not gaps or not scale:
+        if gaps and not scale and (any(gaps) or allowance):
+            self.of_zero[m] = None
+            gaps = []
+        if not gaps:
             return measures.Estimate(math.nan)
-        result = measures.estimate([g / scale for g in gaps])
-        result.allowance = allowance / scale
+        result = measures.estimate(over(gaps, scale))
+        result.allowance = allowance / scale if scale else 0.0
         return result
 
     def _borrow(self):
@@ -215,7 +226,7 @@ class Judge:
         pairs = [(a, b) for a, b in zip(self.quantities[rung["name"]][m], self.quantities[other["name"]][m])
                  if math.isfinite(a) and math.isfinite(b)]
         scale = (sum(abs(b) for _, b in pairs) / len(pairs) if pairs else 0.0) if metric["relative"] else metric["divide_by"]
-        return [measures.gap(metric, a, b) / scale for a, b in pairs] if scale else []
+        return over([measures.gap(metric, a, b) for a, b in pairs], scale)
 
     # Verdict -------------------------------------------------------------------------------------------------------------------
     def targets(self):
@@ -315,7 +326,7 @@ class Judge:
                          if math.isfinite(x) and math.isfinite(y)]
                 known = [abs(v) for v in self.quantities[best["name"]][m] if math.isfinite(v)]
                 scale = (sum(known) / len(known) if known else math.nan) if metric["relative"] else metric["divide_by"]
-                found.append(measures.estimate([p / scale for p in pairs]) if pairs and scale else measures.Estimate(math.nan))
+                found.append(measures.estimate(over(pairs, scale)))
             effects.append({"axis": axis["name"], "to": best["name"], "effects": found})
         return effects
 
@@ -357,6 +368,8 @@ class Judge:
         """One sentence: where the next core-second tells most."""
         if not self.plan["reference"]:
             return "a [reference], to know errors"
+        if why := self.without_meaning(self.targets() or [0] * bool(self.metrics)):
+            return f"another scale, no run: {why}"
         if not self.metrics or not self.candidates():
             return "nothing can be said: no run can be compared"
         if self.targets() and answer is None:
@@ -404,6 +417,8 @@ class Judge:
         for (m, *_), limit in self.limits.items():
             if limit["why"]:
                 said.append(f"a limit of {self.metrics[m]['name']}: {limit['why']}")
+        if why := self.without_meaning(range(len(self.metrics))):
+            said.append(f"errors without meaning: {why}")
         ran = {r["name"] for r in self.rungs}
         skipped = [r["name"] for r in self.plan["rungs"] if r["name"] not in ran and not r["later"] and r["name"] not in left_out]
         unpaired = sum(1 for r in self.plan["rungs"] if r["later"] and r["name"] not in ran)
@@ -433,12 +448,19 @@ class Judge:
             f"scatter against the reference, which has too few replicas: that against '{name}' stands in for it" for name in sorted(against)]
 
     # Result --------------------------------------------------------------------------------------------------------------------
+    def without_meaning(self, metrics):
+        """Of those that are divided by a reference of zero: what is wrong, and what to do. Empty where none is."""
+        named = [f"{WORDS[self.metrics[m]['measure']]} {self.metrics[m]['column']} is 0" for m in metrics if m in self.of_zero]
+        return f"the {' and the '.join(named)} in the reference: a relative error has no meaning, use divide_by" if named else ""
+
     def sentence(self, answer):
         if not self.plan["reference"]:
             return "no reference: the table has each configuration's own values"
         if not self.targets():
             return "no metric has a target: the Pareto front shows what each error costs"
         wanted = " and ".join(target_words(self.metrics[m]) for m in self.targets())
+        if answer is None and (why := self.without_meaning(self.targets())):
+            return f"nothing is known to be within {wanted}: {why}"
         if answer is None:
             near = min(self.candidates(), key=self.shortfall, default=None)
             if near is None:

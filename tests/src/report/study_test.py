@@ -133,6 +133,36 @@ class Answer(unittest.TestCase):
         self.assertTrue(any("blew up" in text for text in result["not_tested"]))
 
 
+class Zero(unittest.TestCase):
+    """Rungs whose mean is a given number, most of them zero, with a relative target."""
+
+    def result(self, values, replicas=1, **more):
+        study = Synthetic(dict.fromkeys(values, 0.0), COSTS, replicas=replicas, metric=dict(MEAN, column="spar.roll_deg") | more)
+        for rung in study.plan["rungs"]:
+            for run in rung["runs"]:
+                study.histories[run["name"]] = (np.linspace(0.0, 10.0, 11), lambda column, v=values[rung["name"]]: np.full(11, v))
+        return study.judge().result()
+
+    def test_an_error_relative_to_zero_is_named(self):
+        said = "the mean of spar.roll_deg is 0 in the reference: a relative error has no meaning, use divide_by"
+        for replicas in (1, 4):
+            result = self.result({"coarse": 0.3, "good": 0.1, "fine": 0.0}, replicas)
+            self.assertEqual((result["answer"], result["sentence"]), (None, f"nothing is known to be within 2 % of the mean of spar.roll_deg: {said}"))
+            self.assertEqual(result["next"], f"another scale, no run: {said}")
+            self.assertIn(f"errors without meaning: {said}", result["not_tested"])
+            self.assertIsNone(result["rungs"][0]["errors"]["mean"]["error"])
+        self.assertIn(f"errors without meaning: {said}", self.result({"coarse": 0.3, "fine": 0.0}, target=None)["not_tested"])
+
+    def test_zero_against_zero_is_no_error(self):
+        for replicas in (1, 4):
+            result = self.result({"coarse": 0.0, "good": 0.0, "fine": 0.0}, replicas)
+            self.assertEqual(result["answer"], "coarse")
+            self.assertEqual([rung["errors"]["mean"]["error"] for rung in result["rungs"]], [0.0, 0.0, 0.0])
+            self.assertFalse(any("no meaning" in text for text in result["not_tested"]))
+        # A rung that is zero too is the answer, whatever the others are.
+        self.assertEqual(self.result({"coarse": 0.3, "good": 0.0, "fine": 0.0})["answer"], "good")
+
+
 RMS = dict(MEAN, name="rms", measure="rms", relative=False, target=4.0)
 
 
