@@ -15,6 +15,7 @@ import motions
 import quantities
 import rotor_pictures
 import sea_pictures
+import told_bodies
 import verdict
 from html_page import escape, parts, safe, section
 from words import LEVEL, deviation, duration, mean, number, short
@@ -240,7 +241,7 @@ def _impact_rows(run):
 
 
 def key_figures(run):
-    names = [n for n in quantities.key_columns(run.columns) if n in run.columns and not _still(run, n)]
+    names = [n for n in quantities.key_columns(run.columns, told_bodies.spinning(run)) if n in run.columns and not _still(run, n)]
     if not len(run.time) or not names:
         return ""
 
@@ -286,7 +287,7 @@ def compared_figures(runs):
 
 def _compared(runs, title, figure_of):
     """A row a quantity, a column a run."""
-    names = [n for n in quantities.key_columns(runs[0].columns) if all(n in r.columns for r in runs)]
+    names = [n for n in quantities.key_columns(runs[0].columns, told_bodies.spinning(runs[0])) if all(n in r.columns for r in runs)]
     rows = []
     for name in names:
         means = [figure_of(r, name) for r in runs]

@@ -184,15 +184,15 @@ def sensors_of(names):
 MOST_KEY_BODIES = 4
 
 
-def key_columns(names):
+def key_columns(names, spinning=()):
     """Columns of the key figures: motions of the first body (where no rotor makes it the one that counts, of the first few), coefficients of a flow, rotor loads,
-    tensions, gauges, probes, sensors."""
-    bodies = bodies_of(names)
+    tensions, gauges, probes, sensors. Bodies that turn with a rotor do not count: their motions are those of its hub and its azimuth."""
+    bodies = [body for body in bodies_of(names) if body not in spinning]
     chosen = [c for b in bodies[:1 if rotors_of(names) else MOST_KEY_BODIES] for c in (p[1][0][1] for p in _triple(names, b, ("x", "y", "z", "roll", "pitch", "yaw")))]
     wanted = (".thrust_N", ".torque_N_m", ".power_W", ".rpm", ".electrical_power_W", ".asked_pitch_deg", ".tension_N", ".lift_coefficient", ".drag_coefficient", "flow.fx_N", "flow.fz_N",
               ".elevation_m", ".pressure_Pa", "sea.lost_particles")
     sector = {"flow.fx_N", "flow.fz_N"} if "rotor.thrust_N" in names else set()   # of a rotor: loads of the sector that is solved
-    farthest = set() if bodies or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam
+    farthest = set() if bodies_of(names) or "wavemaker.displacement_m" in names else {"sea.x_max_m"}   # of water that runs: a broken dam
     wanted += tuple(farthest)
     wanted += tuple(f"{sensor}.{quantity}" for sensor in sensors_of(names) for quantity in ("mean_pressure_Pa", "fx_N", "fy_N", "fz_N"))
     return chosen + [n for n in names if n.endswith(wanted) and not re.search(r"\.blade_\d+\.", n) and n not in sector]

@@ -40,6 +40,11 @@ def _rotors(run):
     return carry, spinning
 
 
+def spinning(run):
+    """Bodies that turn with rotors, whose attitude is the azimuth once more."""
+    return _rotors(run)[1]
+
+
 def told(run):
     """(bodies, of the headline): those whose motions say something, in the order of the columns. Of bodies that joints tie to a rotor the first that does not
     turn with it stands for all, and where there are rotors the headline is of these alone. Of bodies that are fixed to each other the first stands for all."""

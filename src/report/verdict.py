@@ -62,8 +62,12 @@ def _value(table, *keys):
 
 
 def _stands(run):
-    joints = (run.scene.get("joints") or {}).values()
-    return any(joint.get("type") == "fixed" and "earth" in joint.get("bodies", []) for joint in joints)
+    """Do turbines stand on the ground? Held by a joint that moves nothing or by a rotor's own bearing, or where there is neither water nor mooring to hold them."""
+    joints = run.scene.get("joints") or {}
+    bearings = [rotor.get("joint") for _, rotor in run.rotors() if isinstance(rotor, dict)]
+    held = any("earth" in joint.get("bodies", []) and (joint.get("type") == "fixed" or (joint.get("type") == "revolute" and name in bearings))
+               for name, joint in joints.items())
+    return held or (_value(run.scene, "sea", "model") in (None, "none") and not run.scene.get("moorings"))
 
 
 def what_ran(run):

@@ -703,6 +703,28 @@ class PartsTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.hub]\nmass_kg = 1.0\n" + bearing + rotor, log="")
                 self.assertEqual([words for words, _, _ in verdict.answers(RunData(pathlib.Path(folder)))], said)
 
+    def test_a_turbine_floats_where_water_or_lines_carry_it(self):
+        t = 0.1 * np.arange(40)
+        table = {"time_s": t, "hub.x_m": 0 * t, "tower.x_m": 0 * t, "rotor.thrust_N": 1e6 + 0 * t}
+        bearing = "[joints.bearing]\ntype = 'revolute'\nbodies = ['{}', 'hub']\n[rotor]\njoint = 'bearing'\n"
+        sea, flap = "[sea]\nmodel = 'morison'\n", "[joints.flap]\ntype = 'revolute'\nbodies = ['earth', 'tower']\n"
+        for scene, floats in ((bearing.format("earth"), False), (bearing.format("earth") + sea, False), (bearing.format("tower"), False), (bearing.format("tower") + sea, True),
+                              (bearing.format("tower") + sea + flap, True), (bearing.format("tower") + "[moorings.line]\nbody = 'tower'\n", True),
+                              (bearing.format("tower") + sea + "[joints.foot]\ntype = 'fixed'\nbodies = ['earth', 'tower']\n", False)):
+            with self.subTest(scene), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, scene=scene, log="")
+                self.assertTrue(verdict.what_ran(RunData(pathlib.Path(folder))).startswith("A floating turbine" if floats else "A turbine on its foundation"))
+
+    def test_a_body_that_turns_with_a_rotor_has_no_key_figures(self):
+        t = 0.1 * np.arange(400)
+        spin = (60.0 * t + 180.0) % 360.0 - 180.0
+        table = {"time_s": t, "hub.x_m": 0.1 * np.sin(t), "hub.roll_deg": spin, "tower.x_m": np.sin(t), "tower.roll_deg": np.sin(t), "rotor.thrust_N": 1e6 + 0 * t}
+        for carrier, said in (("tower", ["tower.x_m", "tower.roll_deg", "rotor.thrust_N"]), ("earth", ["tower.x_m", "tower.roll_deg", "rotor.thrust_N"])):
+            with tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=f"[joints.bearing]\ntype = 'revolute'\nbodies = ['{carrier}', 'hub']\n[rotor]\njoint = 'bearing'\n")
+                shown = str(page.key_figures(RunData(pathlib.Path(folder)))).partition("<details>")[0]
+                self.assertEqual(re.findall(r'<small class="code">([^<]*)</small>', shown), said)
+
     def test_of_several_bodies_each_is_named_and_judged(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t} | {f"{body}.x_m": 0 * t for body in ("heavy", "neutral", "light")}
