@@ -142,6 +142,18 @@ def _of(body, several):
     return f" of {body}" if several else ""
 
 
+def _across(run, rotor):
+    """The force of a rotor in its plane: what its load on its body has besides the thrust. None where no column tells, or where the tower's drag is in it."""
+    given = dict(run.rotors()).get(rotor) or {}
+    bodies = [body for body in quantities.bodies_of(run.columns)
+              if given.get("body") in (body, None, "") and {f"{body}.{rotor}.f{axis}_N" for axis in "xyz"} <= set(run.columns)]
+    tower = _value(run.scene, "aero", "tower")
+    if len(bodies) != 1 or (tower and tower.get("has_drag", True) and bodies[0] not in told_bodies.spinning(run)):
+        return None
+    squares = sum(run.column(f"{bodies[0]}.{rotor}.f{axis}_N") ** 2 for axis in "xyz")
+    return np.sqrt(np.maximum(squares - run.column(f"{rotor}.thrust_N") ** 2, 0.0))
+
+
 def answers(run):
     """[(words, value, unit)]: the few figures that this kind of scene is run for; means over the summary's range, of a steady state those of its end.
     Where a figure swings its standard deviation stands behind it."""
@@ -158,11 +170,13 @@ def answers(run):
             value = function(name)
             if not (np.abs(run.column(name)) > run.round_off(name)).any():   # what a scene leaves out
                 return
-            value = 0.0 if abs(value) <= run.round_off(name) else value
-            unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
-            swing = words.deviation(run.time[chosen], values_of(name)[chosen]) if function is mean and not is_steady(run) else 0.0
-            swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
-            said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
+            say(text, name, value, words.deviation(run.time[chosen], values_of(name)[chosen]) if function is mean and not is_steady(run) else 0.0)
+
+    def say(text, name, value, swing):
+        value = 0.0 if abs(value) <= run.round_off(name) else value
+        unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
+        swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
+        said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
     bodies, of_headline = told_bodies.told(run)
@@ -188,6 +202,9 @@ def answers(run):
     for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient"), *_of_rotors(run, ("electrical power", "electrical_power_W"))):
         add(text, name)
+        across = _across(run, name.rpartition(".")[0]) if name.endswith(".thrust_N") else None
+        if across is not None and (force := words.mean(run.time[chosen], across[chosen])) > max(abs(mean(name)), run.round_off(name)):   # parked, or far out of the wind
+            say(text.replace("thrust", "force in the rotor's plane"), name, force, words.deviation(run.time[chosen], across[chosen]))
     if _event(run):   # what it is simulated for
         for text, name in _of_rotors(run, ("thrust", "thrust_N"), ("rotor speed", "rpm")):
             add(f"{text}, least", name, least), add(f"{text}, greatest", name, greatest)

@@ -703,6 +703,19 @@ class PartsTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.hub]\nmass_kg = 1.0\n" + bearing + rotor, log="")
                 self.assertEqual([words for words, _, _ in verdict.answers(RunData(pathlib.Path(folder)))], said)
 
+    def test_a_force_in_the_plane_of_a_rotor_that_is_larger_than_the_thrust_is_told(self):
+        t = 0.1 * np.arange(100)
+        force = {"hub.x_m": 0 * t, "hub.rotor.fx_N": -12e3 + 0 * t, "hub.rotor.fy_N": 235e3 + 0 * t, "hub.rotor.fz_N": 0 * t}
+        turned = {"hub.rotor.fx_N": 300e3 * np.cos(0.5) + 0 * t, "hub.rotor.fy_N": 300e3 * np.sin(0.5) + 0 * t}   # a thrust along a shaft that is yawed
+        tower = "[aero.tower]\nstations = [[0.0, 6.0, 1.0]]\nhas_drag = {}\n"
+        alone, both = [("thrust", "−12.00", "kN")], [("thrust", "−12.00", "kN"), ("force in the rotor's plane", "235.0", "kN")]
+        for more, scene, said in ((force, "[rotor]\nbody = 'hub'\n", both), (force, "[rotor]\n", both), ({}, "[rotor]\nbody = 'hub'\n", alone),
+                                  (force | turned | {"rotor.thrust_N": 300e3 + 0 * t}, "[rotor]\nbody = 'hub'\n", [("thrust", "300.0", "kN")]),
+                                  (force, "[rotor]\nbody = 'hub'\n" + tower.format("true"), alone), (force, "[rotor]\nbody = 'hub'\n" + tower.format("false"), both)):
+            with self.subTest(scene, columns=list(more)), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "rotor.thrust_N": -12e3 + 0 * t} | more, scene=scene, log="")
+                self.assertEqual(verdict.answers(RunData(pathlib.Path(folder))), said)
+
     def test_a_turbine_floats_where_water_or_lines_carry_it(self):
         t = 0.1 * np.arange(40)
         table = {"time_s": t, "hub.x_m": 0 * t, "tower.x_m": 0 * t, "rotor.thrust_N": 1e6 + 0 * t}
