@@ -195,12 +195,20 @@ def differences(runs):
 # ---- figures and tables --------------------------------------------------------------------------------------------------------------
 
 
+def _largest(names, size):
+    """{name: what its unit is chosen by}: of a column its own size, of the tension of a line that of all lines, which are read beside each other."""
+    sizes = {name: size(name) for name in names}
+    of_lines = max((s for name, s in sizes.items() if name.endswith("tension_N")), default=0.0)
+    return {name: of_lines if name.endswith("tension_N") else s for name, s in sizes.items()}
+
+
 def _key_rows(run, names):
     rows, where = [], run.mean_range()
+    largest = _largest(names, lambda name: np.abs(run.column(name)[np.isfinite(run.column(name))]).max(initial=0.0))
     for name in names:
         values = run.column(name)
         finite = values[np.isfinite(values)]
-        unit, factor = quantities.scaled(quantities.unit_of(name, run.described), np.abs(finite).max(initial=0.0))
+        unit, factor = quantities.scaled(quantities.unit_of(name, run.described), largest[name])
         low, high = (finite.min(), finite.max()) if len(finite) else (math.nan, math.nan)
         figures_of = [values[-1], mean(run.time[where[0]], values[where[0]]), deviation(run.time[where[0]], values[where[0]]), low, high]
         noise = run.round_off(name)
@@ -288,13 +296,13 @@ def compared_figures(runs):
 def _compared(runs, title, figure_of):
     """A row a quantity, a column a run."""
     names = [n for n in quantities.key_columns(runs[0].columns, told_bodies.spinning(runs[0])) if all(n in r.columns for r in runs)]
-    rows = []
-    for name in names:
-        means = [figure_of(r, name) for r in runs]
+    rows, found = [], {name: [figure_of(r, name) for r in runs] for name in names}
+    largest = _largest(names, lambda name: max((abs(m) for m in found[name] if math.isfinite(m)), default=0.0))
+    for name, means in found.items():
         means = [0.0 if abs(m) <= r.round_off(name) else m for m, r in zip(means, runs)]
         if not any(means) and all(name in r.columns and not (abs(r.column(name)) > r.round_off(name)).any() for r in runs):   # zero throughout, in all
             continue
-        unit, factor = quantities.scaled(quantities.unit_of(name, runs[0].described), max((abs(m) for m in means if math.isfinite(m)), default=0))
+        unit, factor = quantities.scaled(quantities.unit_of(name, runs[0].described), largest[name])
         cells, share = [], not quantities.is_displacement(name)
         for i, value in enumerate(means):
             change = (value - means[0]) / abs(means[0]) * 100.0 if i and means[0] and share else factor * (value - means[0]) if i and not share else math.nan

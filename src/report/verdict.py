@@ -174,8 +174,8 @@ def answers(run):
 
     def say(text, name, value, swing):
         value = 0.0 if abs(value) <= run.round_off(name) else value
-        unit, factor = quantities.scaled(quantities.unit_of(name, run.described), abs(value) if math.isfinite(value) else 0.0)
         swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
+        unit, factor = quantities.scaled(quantities.unit_of(name, run.described), max(abs(value) if math.isfinite(value) else 0.0, swing if swings else 0.0))
         said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))

@@ -716,6 +716,24 @@ class PartsTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table={"time_s": t, "rotor.thrust_N": -12e3 + 0 * t} | more, scene=scene, log="")
                 self.assertEqual(verdict.answers(RunData(pathlib.Path(folder))), said)
 
+    def test_tensions_of_all_lines_have_one_unit(self):
+        t = 0.1 * np.arange(100)
+        table = {"time_s": t, "float.x_m": np.sin(t), "line_1.tension_N": 1.05e6 + 0 * t, "line_2.tension_N": 8.7e5 + 0 * t, "leg.tension_N": 4e4 + 0 * t}
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            runs = [RunData(synthetic_run.write(folder / name, table=table, scene="", log="")) for name in "ab"]
+            for shown in (page.key_figures(runs[0]), page.compared_figures(runs)):
+                text = re.sub(r"<[^>]+>", " ", str(shown))
+                self.assertEqual([re.search(rf"{name}\.tension_N +(\S+) +(\S+)", text).groups() for name in ("line_1", "line_2", "leg")],
+                                 [("MN", "1.050"), ("MN", "0.8700"), ("MN", "0.04000")])
+
+    def test_the_unit_of_a_figure_suits_its_swing(self):
+        t = 0.1 * np.arange(401)
+        with tempfile.TemporaryDirectory() as folder:
+            table = {"time_s": t, "rotor.thrust_N": 1e5 + 0 * t, "rotor.power_W": -750.0 + 2e5 * np.sin(2 * np.pi * t / 10.0)}
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="", log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
+            self.assertIn(("power", "−0.7500 ± 141", "kW"), verdict.answers(RunData(pathlib.Path(folder))))
+
     def test_a_turbine_floats_where_water_or_lines_carry_it(self):
         t = 0.1 * np.arange(40)
         table = {"time_s": t, "hub.x_m": 0 * t, "tower.x_m": 0 * t, "rotor.thrust_N": 1e6 + 0 * t}
