@@ -9,8 +9,21 @@
 
 namespace spindrift::runtime {
 
+namespace {
+
+/// Bisection puts a block of more than two ranks' shares with the ranks it counts for, divides it among them, and says so on
+/// stdout. No partition of such a graph is balanced. The limit leaves a margin.
+bool has_heavy_block(const WorkGraph& graph) {
+  constexpr double heavy = 1.5;
+  return std::ranges::any_of(graph.shares, [](double share) { return share > heavy; });
+}
+
+}  // namespace
+
 std::optional<std::vector<int>> partition_by_metis(const WorkGraph& graph, MetisScheme scheme, double tolerance) {
-  if (graph.ranks < 2 || graph.blocks < graph.ranks || graph.neighbours.empty() || graph.constraints == 0) return std::nullopt;
+  if (graph.ranks < 2 || graph.blocks < graph.ranks || graph.neighbours.empty() || graph.constraints == 0 ||
+      has_heavy_block(graph))
+    return std::nullopt;
   constexpr double whole = 1e8;
   std::vector<idx_t> first(graph.first_neighbour.begin(), graph.first_neighbour.end()), neighbour, edge_weight, cost;
   double total = 0.0;

@@ -155,6 +155,10 @@ class Windows {
     const RankRun& whole = many ? *many : piece;
     Recut made = recut(whole.graph, whole.run, simulated_ * ranks, listed, simulated_);
     for (const double imbalance : made.quality.imbalance) out_.imbalance = std::max(out_.imbalance, imbalance);
+    for (std::size_t m = 0; m < made.modules.size(); ++m) {
+      int& pieces = out_.pieces[made.modules[m]];
+      pieces = std::max(pieces, made.blocks_of[m] * units_.count / simulated_);
+    }
     double work = 0.0;
     for (const auto& ns : whole.run.ns)
       for (const std::int64_t one : ns) work += 1e-9 * double(one);

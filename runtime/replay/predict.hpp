@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,10 +33,11 @@ struct Prediction {
   double outside_s = 0.0;  ///< of it between the graphs, as recorded for each copy that a rank has: snapshot, exchange, schemes
   /// Sums over the windows' graphs, divided by the windows; slices of the first window alone, and only where all is simulated.
   Simulated tasks;
-  double work_s = 0.0;      ///< core-seconds of tasks as recorded, of all copies
-  double efficiency = 0.0;  ///< work_s over cores x wall_s
-  double repeated = 0.0;    ///< part of the work that more than one rank does
-  double imbalance = 1.0;   ///< of the most loaded rank, worst of the modules
+  double work_s = 0.0;                ///< core-seconds of tasks as recorded, of all copies
+  double efficiency = 0.0;            ///< work_s over cores x wall_s
+  double repeated = 0.0;              ///< part of the work that more than one rank does
+  double imbalance = 1.0;             ///< of the most loaded rank, worst of the modules
+  std::map<std::string, int> pieces;  ///< that ranks share (tiles, columns of particles), by module; of one rank's recording
 };
 
 /// Which side a module (first component of the labels) is of; either: of the first that its graph has (exchange, output).

@@ -293,6 +293,8 @@ Recut recut(const GraphRecord& graph, const RunRecord& run, int ranks, int first
   const FirstPart part(blocks, alike);
   Recut out;
   out.modules = blocks.modules(), out.blocks = blocks.count();
+  out.blocks_of.assign(out.modules.size(), 0);
+  for (const int module : blocks.module_of_block()) ++out.blocks_of[std::size_t(module)];
   std::vector<int> rank_of_block(std::size_t(part.weighted.blocks()), 0);
   if (ranks > alike && !rank_of_block.empty()) {
     Partition partition = partition_blocks(part.weighted, {.ranks = ranks / alike});

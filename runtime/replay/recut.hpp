@@ -18,6 +18,7 @@ struct Recut {
   std::vector<RankRun> ranks;
   PartitionQuality quality;  ///< by module in the order of their names
   std::vector<std::string> modules;
+  std::vector<int> blocks_of;  ///< by module
   int blocks = 0;
   double repeated = 0.0;  ///< work done on more than one rank, of all that was recorded
 };

@@ -1,6 +1,7 @@
 // spindrift replay: predicts the windows of a recording for other ranks, threads, networks and placements of air and sea.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
@@ -75,6 +76,7 @@ Json figures_of(const Prediction& p, const std::optional<double>& weak) {
                {"critical_path_s", p.placement == Placement::bulk_synchronous ? Json(nullptr) : Json(p.tasks.critical_path_s)},
                {"repeated_work", p.repeated},
                {"imbalance", p.imbalance},
+               {"pieces", p.pieces},
                {"bytes", p.tasks.bytes},
                {"messages", p.tasks.messages},
                {"reductions", p.tasks.reductions},
@@ -117,6 +119,28 @@ void print_chain(const Prediction& p) {
   if (links.size() > most) fmt::print("  and {} more labels\n", links.size() - most);
 }
 
+/// Ranks for which a recording has too few pieces, by what it has: "sea: 27 pieces".
+using Few = std::map<std::string, std::vector<int>>;
+
+void note_few_pieces(Few& few, const Prediction& p) {
+  constexpr int least = 4;  // a rank: with fewer one more or less is a quarter of its work
+  const int ranks = p.cluster.ranks;
+  const auto note = [&](const std::string& text) {
+    std::vector<int>& of = few[text];
+    if (ranks > 1 && (of.empty() || of.back() != ranks)) of.push_back(ranks);
+  };
+  if (p.pieces.empty()) note("no pieces");
+  for (const auto& [module, pieces] : p.pieces)
+    if (pieces < least * ranks) note(fmt::format("{}: {} piece{}", module, pieces, pieces == 1 ? "" : "s"));
+}
+
+void print_few_pieces(const Few& few) {
+  for (const auto& [pieces, ranks] : few)
+    if (!ranks.empty())
+      fmt::print("{} for {} ranks: too few, some ranks wait for others; a scene with more cells or particles has more\n", pieces,
+                 fmt::join(ranks, ", "));
+}
+
 Recording read(const std::string& file) {
   try {
     return runtime::read_recording(file);
@@ -154,6 +178,7 @@ int replay(const ReplayArguments& arguments, const runtime::World& world) {
       weak ? "  weak %" : "");
   Json all = Json::array();
   std::optional<Prediction> chain;
+  Few few;
   for (const int ranks : arguments.ranks)
     for (const int threads : arguments.threads) {
       std::map<Placement, double> alone;
@@ -166,12 +191,14 @@ int replay(const ReplayArguments& arguments, const runtime::World& world) {
             std::optional<double> kept;
             if (weak) kept = alone.try_emplace(placement, p.wall_s).first->second / p.wall_s;
             print_row(p, kept);
+            if (recording.ranks.size() == 1 && placement == Placement::shared) note_few_pieces(few, p);
             all.push_back(figures_of(p, kept));
             if (placement == Placement::shared) chain = std::move(p);
           } catch (const std::invalid_argument& e) { throw io::InputError(fmt::format("{}: {}", arguments.recording, e.what())); }
         }
       }
     }
+  print_few_pieces(few);
   if (chain) print_chain(*chain);
   const Json json{{"kind", "replay"},
                   {"version", 1},

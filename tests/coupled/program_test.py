@@ -138,6 +138,12 @@ class Program(Folder):
                 self.assertGreater(1.0001 * p["wall_s"], p["critical_path_s"])
         self.assertGreater(found[2, 1, "shared"]["messages"], 0)
         self.assertEqual(found[1, 2, "shared"]["messages"], 0)
+        # More ranks than it has pieces for: said once, and nothing that is not ours stands in the table.
+        pieces = alone["pieces"]["sea"]
+        done = spindrift("replay", recording, "--threads", 1, "--ranks", f"1,{pieces // 2},{pieces}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout.count(f"sea: {pieces} pieces for {pieces // 2}, {pieces} ranks: too few"), 1, done.stdout)
+        self.assertNotIn("***", done.stdout)
 
     def test_copies_of_a_recorded_window_are_replayed(self):
         recording = self.recorded()

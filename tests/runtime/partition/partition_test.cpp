@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "runtime/partition/metis_partition.hpp"
 #include "tests/runtime/partition/graphs.hpp"
 
 using namespace spindrift::runtime;
@@ -107,6 +108,20 @@ TEST_CASE("one heavy block leaves no rank empty and is named as unavoidable", "[
   CHECK_FALSE(partition.within_tolerance);
   CHECK(partition.quality.imbalance[0] == Approx(97.0 / 26.25));
   CHECK_THAT(describe(partition), Catch::Contains("largest block alone 3.695") && Catch::Contains("outside the tolerance"));
+}
+
+TEST_CASE("a block heavier than two ranks' shares is no task for METIS, which prints on stdout that it cannot",
+          "[partition][fast]") {
+  std::vector<double> cost(40, 1.0);
+  cost[20] = 100.0;  // of 8 ranks' 139 / 8
+  const BlockGraph graph = row(cost);
+  const auto scheme = GENERATE(MetisScheme::k_way, MetisScheme::recursive);
+  CHECK_FALSE(partition_by_metis(work_graph(graph, 8), scheme, 0.05));
+  CHECK(partition_by_metis(work_graph(row(std::vector<double>(40, 1.0)), 8), scheme, 0.05));
+  const auto partition = partition_blocks(graph, {.ranks = 8});
+  CHECK(partition.used == Partitioner::bisection);
+  CHECK(partition.quality.imbalance[0] == Approx(partition.quality.unavoidable[0]));
+  CHECK(partition.quality.empty_ranks == 0);
 }
 
 TEST_CASE("degenerate graphs have an answer", "[partition][fast]") {
