@@ -23,6 +23,7 @@
 #include "src/app/scene_file.hpp"
 #include "src/app/scene_run.hpp"
 #include "src/app/smaller_choices.hpp"
+#include "src/app/trial_length.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/memory_limits.hpp"
 #include "src/coupling/timeline.hpp"
@@ -328,8 +329,7 @@ void take_least(Times& least, const Times& again) {
 void set_length(Trial& trial, ReadyScene scene) {
   const coupling::TimeOptions time = scene.floating->scenario().time;
   trial.forecast_s = measured_steps(*scene.floating, scene.start).core_seconds() * double(1 + trial.omissions.size());
-  const double windows = std::ceil(time.end_s / time.window_s * std::min(1.0, trial.budget_s / trial.forecast_s));
-  trial.length_s = std::min(trial.end_s, std::max(3.0, windows) * time.window_s);
+  trial.length_s = trial_length_s(time.end_s, time.window_s, trial.budget_s, trial.forecast_s);
   if (!trial.whole()) trial.unlike = unlike_the_run(scene, trial.length_s);
 }
 
