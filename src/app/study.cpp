@@ -13,6 +13,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "kernels/base/failure.hpp"
 #include "src/app/commands.hpp"
 #include "src/app/forecast.hpp"
 #include "src/app/scene_file.hpp"
@@ -129,6 +130,21 @@ Checked checked(const std::string& file, const std::vector<std::string>& overrid
   return checked;
 }
 
+/// Of many runs of a study, the one whose scene is wrong.
+template <class Check>
+auto naming(const std::string& run, Check&& check) {
+  const std::string of = fmt::format(" (in configuration {})", run);
+  try {
+    return check();
+  } catch (const scene::SceneError& e) {
+    std::vector<scene::Problem> problems = e.problems();
+    for (scene::Problem& problem : problems) problem.message += of;
+    throw scene::SceneError(std::move(problems));
+  } catch (const io::InputError& e) { throw io::InputError(e.what() + of); } catch (const NumericalFailure& e) {
+    throw NumericalFailure(e.what() + of, e.place, e.step, e.time_s, e.limit);
+  }
+}
+
 /// Once, whatever number of runs has it.
 void add_once(std::vector<scene::Problem>& problems, const scene::Problem& problem) {
   if (std::ranges::none_of(problems, [&](const scene::Problem& p) { return p.key == problem.key && p.value == problem.value; }))
@@ -210,19 +226,20 @@ Json of_rung(const scene::Study& study, const scene::StudyRun& rung, const std::
   for (int n = 0; n < std::max(rung.replicas, 1); ++n) {
     std::vector<std::string> set = rung.overrides;
     set.insert(set.end(), replicas[std::size_t(n)].set.begin(), replicas[std::size_t(n)].set.end());
-    const Checked scene = checked(rung.scene, set, {study.file, study.directory}, n == 0, digests);
+    const std::string& replica = replicas[std::size_t(n)].name;
+    const std::string name = replica.empty() ? rung.name : rung.name + "/" + replica;
+    const Checked scene = naming(name, [&] { return checked(rung.scene, set, {study.file, study.directory}, n == 0, digests); });
     if (!first) {
       first = scene.forecast;
       check_columns(study, rung.name, first->columns, problems);
       if (scene.end_s) check_starts(study, rung.name, *scene.end_s, problems);
       if (reference && scene.end_s) check_range(study, rung.name, *scene.end_s, *reference, problems);
     }
-    out["runs"].push_back(
-        {{"name", replicas[std::size_t(n)].name.empty() ? rung.name : rung.name + "/" + replicas[std::size_t(n)].name},
-         {"set", set},
-         {"identity", scene.identity},
-         {"forecast_core_s", first->core_seconds},
-         {"forecast_bytes", first->bytes}});
+    out["runs"].push_back({{"name", name},
+                           {"set", set},
+                           {"identity", scene.identity},
+                           {"forecast_core_s", first->core_seconds},
+                           {"forecast_bytes", first->bytes}});
   }
   return out;
 }

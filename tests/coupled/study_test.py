@@ -138,6 +138,8 @@ measure = "last"
     def test_what_is_wrong_is_found_before_anything_runs(self):
         for old, new, said in (('"buoy.z_m"', '"buoy.z_mm"', 'did you mean "buoy.z_m"'),
                                ("waves.components=40", "waves.component=40", "waves.component"),
+                               ("values = [0.1, 0.05, 0.025]", "values = [0.1, 0.05, 0.025, -0.01]", "(in configuration base-step_-0.01/replica_1)"),
+                               ('key = "time.step_s"', 'key = "time.steps_s"', "(in configuration base-step_0.1/replica_1)"),
                                ('variant = "base-step_0.025"', 'variant = "base-step_0.25"', "is no run of this study"),
                                ("[replicas]", '[axes.again]\nkey = "time.\\"step_s\\""\nvalues = [0.1, 0.05]\n[replicas]', 'sets time.step_s, as axes.step does: a key is on one axis alone'),
                                ('key = "waves.seed"\nvalues = [1, 2, 3, 4]', 'points = [{name = "a", set = ["time.step_s=0.2"]}]', "replicas.points: sets time.step_s, as axes.step does"),
