@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/trace/processor_share.hpp"
 #include "src/aero/grid/multi_block.hpp"
 #include "src/aero/resolved_rotor_setup.hpp"
 #include "src/app/cost.hpp"
@@ -73,7 +74,6 @@ double resident_memory();
 /// Of a run that begins with what this check has done, in `start_s` of processor time and `resident` bytes: those before what a
 /// census or a grid leaves behind.
 inline BaseCost base_cost(double start_s, double resident) { return {resident + output_bytes, start_s + output_seconds}; }
-/// Processor time of all threads of this process so far [s].
-double processor_seconds();
+using runtime::processor_seconds;
 
 }  // namespace spindrift::app

@@ -61,6 +61,7 @@ struct Profile {
   std::map<std::string, double> run_parts;         ///< [core-s] of the whole run, from reading the scene on, by phase
   double run_s = 0.0, run_core_s = 0.0;            ///< of it: wall; wall x cores, summed over the ranks
   double all_s = 0.0;                              ///< [core-s] of a window: wall x cores, summed over the ranks
+  double processor_share = 1.0;                    ///< of the run, see runtime/trace/processor_share.hpp
   Json timeline;
   double efficiency() const { return load_balance * communication; }
   /// Parts over wall x cores. Modules come from the records of tasks, the rest from the sums of threads and windows.
@@ -198,6 +199,7 @@ Profile windows_of(const ProfileArguments& arguments, const Mode& mode, const ru
       if (run.window == last) begin = std::min(begin, run.begin_ns), end = std::max(end, run.begin_ns + run.wall_ns);
     if (end > begin) p.timeline = last_window(driver.traces(), begin, end);
   }
+  p.processor_share = driver.processor_share();
   add_phases(seen, driver.ledger());
   seen.left_ns = runtime::Clock::now_ns();
   seen.wall_s["sums and records"] += 1e-9 * double(seen.left_ns - ended_ns);
@@ -261,7 +263,8 @@ Json figures_of(const Profile& p) {
             {"run_s", p.run_s},
             {"run_core_s", p.run_core_s},
             {"run_parts_core_s", p.run_parts},
-            {"run_accounted", p.run_accounted()}};
+            {"run_accounted", p.run_accounted()},
+            {"processor_share", p.processor_share}};
   if (!p.timeline.is_null()) json["timeline"] = p.timeline;
   return json;
 }
@@ -273,10 +276,17 @@ std::vector<std::string> sentences(const std::vector<Profile>& all) {
   };
   const Profile &air = *of("air alone"), &sea = *of("sea alone"), &turns = *of("in turns"), &shared = *of("shared");
   std::vector<std::string> text;
-  text.push_back(
-      fmt::format("Overlap: air and sea alone take {:.4g} + {:.4g} ms, shared {:.4g} ms: a gain of {:.3f}; in turns {:.4g} ms.",
-                  1e3 * air.median_s, 1e3 * sea.median_s, 1e3 * shared.median_s, (air.median_s + sea.median_s) / shared.median_s,
-                  1e3 * turns.median_s));
+  if (const std::string told = runtime::told_share(std::ranges::min(all, {}, &Profile::processor_share).processor_share);
+      !told.empty())
+    text.push_back(told);
+  const std::string times = fmt::format("air and sea alone take {:.4g} + {:.4g} ms, shared {:.4g} ms", 1e3 * air.median_s,
+                                        1e3 * sea.median_s, 1e3 * shared.median_s);
+  if (shared.ranks * shared.threads > 1)
+    text.push_back(fmt::format("Overlap: {}: a gain of {:.3f}; in turns {:.4g} ms.", times,
+                               (air.median_s + sea.median_s) / shared.median_s, 1e3 * turns.median_s));
+  else
+    text.push_back(
+        fmt::format("One core: {}, in turns {:.4g} ms; what overlap gains shows on two or more.", times, 1e3 * turns.median_s));
   if (const Profile* split = of("split"))
     text.push_back(
         fmt::format("Split: {:.4g} ms, {:.3f} times shared.", 1e3 * split->median_s, split->median_s / shared.median_s));

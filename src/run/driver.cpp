@@ -187,10 +187,15 @@ void Driver::describe_times() {
   const runtime::RankTrace sums = ledger_.sums(world.rank);
   summary_.wall_seconds = 1e-9 * double(sums.threads[0].wall_ns);
   summary_.threads = int(sums.threads.size());
+  const double processor_s = runtime::summed(world.comm, {runtime::processor_seconds() - processor_s_})[0];
   traces_ = gather_traces(sums, world.comm);
   runtime::Efficiency of_sums;
   if (world.rank == 0) {
     of_sums = efficiency_of(traces_);
+    double at_work_s = of_sums.busy_s;  // without what may wait for a disk
+    for (const runtime::ModuleTimes& module : of_sums.modules)
+      if (module.module == "output" || module.module == "start-up") at_work_s -= module.busy_s;
+    processor_share_ = runtime::processor_share(processor_s, at_work_s);
     add_factors(
         {{"parallel efficiency", of_sums.parallel, "useful core-seconds over all core-seconds; load balance x communication"},
          {"load balance", of_sums.load_balance, "mean over largest useful time of a thread"},
@@ -200,6 +205,7 @@ void Driver::describe_times() {
   if (!settings_.record_graph.empty()) write_recording();
   const auto records = std::int64_t(runtime::summed(world.comm, {double(ledger_.records())})[0]);
   if (world.rank == 0 && (records == 0 || records > settings_.most_in_table)) spdlog::info("{}", efficiency_table(of_sums));
+  if (const std::string told = runtime::told_share(processor_share_); world.rank == 0 && !told.empty()) spdlog::info("{}", told);
   if (records == 0) return;
   if (settings_.ended) settings_.ended(summary_);
   read_records(records);

@@ -14,6 +14,7 @@
 #include "runtime/mpi/stop_request.hpp"
 #include "runtime/trace/efficiency.hpp"
 #include "runtime/trace/ledger.hpp"
+#include "runtime/trace/processor_share.hpp"
 #include "src/coupling/floating_system.hpp"
 #include "src/coupling/start.hpp"
 #include "src/io/history.hpp"
@@ -62,6 +63,8 @@ class Driver {
   const runtime::Ledger& ledger() const { return ledger_; }
   /// Of all ranks on rank 0, once the run is over.
   const std::vector<runtime::RankTrace>& traces() const { return traces_; }
+  /// On rank 0, once the run is over: processor time over the core-seconds of tasks.
+  double processor_share() const { return processor_share_; }
 
  private:
   std::int64_t last_window(const coupling::Timeline& timeline) const;
@@ -85,7 +88,9 @@ class Driver {
   const runtime::Parts& parts_;
   const RunSettings settings_;
   runtime::StopRequest& stop_;
-  runtime::Ledger ledger_;  ///< of all that the run does from here on
+  runtime::Ledger ledger_;                                   ///< of all that the run does from here on
+  const double processor_s_ = runtime::processor_seconds();  ///< so far, where the ledger begins
+  double processor_share_ = 1.0;
   std::vector<runtime::RankTrace> traces_;
   io::Summary summary_;
 };

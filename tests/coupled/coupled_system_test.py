@@ -3,6 +3,7 @@ Same bits by threads, ranks, placements and restarts; starts from saved fluids; 
 import json
 import os
 import subprocess
+import sys
 import time
 import unittest
 
@@ -96,10 +97,10 @@ class System(Runs):
 class Profile(System):
     SETTINGS = ["time.end_s=0.25", "time.window_s=0.05"]
 
-    def profiled(self, ranks, threads=1):
+    def profiled(self, ranks, threads=1, start=()):
         (self.path / "scene.toml").write_text(PARTICLES)
         given = [word for s in self.SETTINGS for word in ("--set", s)]
-        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else []
+        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else start
         begin = time.monotonic()
         said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0)
         profile = json.loads((self.path / "out/profile.json").read_text())
@@ -155,6 +156,19 @@ class Profile(System):
         self.assertIn("Split needs two ranks", said)
         self.assertTrue((self.path / "out/profile.png").read_bytes().startswith(b"\x89PNG"))
         self.assertIn("Profile of scene", (self.path / "out/profile.html").read_text())
+
+    def test_on_one_core_there_is_no_gain_by_overlap_and_a_busy_computer_is_told(self):
+        core = str(min(os.sched_getaffinity(0)))
+        others = [subprocess.Popen(["taskset", "-c", core, sys.executable, "-c", "while True: pass"]) for _ in range(3)]
+        try:
+            said, profile = self.profiled(1, start=["taskset", "-c", core])
+        finally:
+            for other in others:
+                other.kill(), other.wait()
+        self.assertIn("others used the computer: this run had ", said)
+        self.assertIn("One core: air and sea alone take", said)
+        self.assertNotIn("gain", said)
+        self.assertLess(min(mode["processor_share"] for mode in profile["modes"]), 0.9)
 
     def test_parts_of_a_run_sum_to_wall_times_cores(self):
         for ranks, threads in ((1, 2), (2, 1)):

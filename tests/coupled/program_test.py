@@ -11,6 +11,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -110,6 +111,17 @@ class Program(Folder):
         self.assertGreater(summary["counts"]["windows"], 0)
         self.assertGreater(len(summary["parts"]), 2)
         self.assertEqual(summary["rows"], len((self.out / "history.csv").read_text().splitlines()) - 1)
+
+    def test_a_run_on_a_busy_computer_says_so(self):
+        core = str(min(os.sched_getaffinity(0)))
+        others = [subprocess.Popen(["taskset", "-c", core, sys.executable, "-c", "while True: pass"]) for _ in range(3)]
+        words = ["taskset", "-c", core, PROGRAM, "run", CASE1, "--out", self.out, "--no-report"]
+        try:
+            said = subprocess.run(words, capture_output=True, text=True, check=True, timeout=300).stdout
+        finally:
+            for other in others:
+                other.kill(), other.wait()
+        self.assertRegex(said, r"others used the computer: this run had \d+ % of its cores; times tell little")
 
     def test_a_recorded_window_is_replayed(self):
         recording = self.recorded()
