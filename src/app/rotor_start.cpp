@@ -26,7 +26,7 @@ struct Working {
   double radius;                     ///< [m]; 0 where the scene does not say
   std::string load_by;               ///< "blade elements"; empty: there is no load
   double thrust = 0.0, power = 0.0;  ///< [N], [W]
-  bool has_power = false;
+  bool has_power = false;            ///< it turns
 };
 
 std::string load_model(const coupling::Scenario& s) {
@@ -86,7 +86,7 @@ void print_at_start(const coupling::Scenario& s, const aero::RotorLoads& rotor, 
               .load_by = load_model(s),
               .thrust = load.thrust,
               .power = load.power,
-              .has_power = load.torque != 0.0};
+              .has_power = load.torque != 0.0 && state.speed != 0.0};
   const bool parked = s.is_controlled() && s.control.start == aero::ControlStart::parked;
   if (load_model(s) == "blade elements" && !parked) now.pitch = s.rotor.blade_pitch;
   const aero::PeakShaving* shaving = rotor.shaving();
@@ -118,7 +118,7 @@ void print_rotor_at_start(const coupling::Scenario& s) {
               .pitch = rotor.blade_pitch,
               .radius = coupling::rotor_radius(s),
               .load_by = {},
-              .has_power = true};
+              .has_power = rotor.speed != 0.0};
   if (const std::optional<aero::RotorLoad> load = coupling::standing_rotor_load(s))
     now.load_by = "blade elements", now.thrust = load->thrust, now.power = load->power;
   print(s, now);

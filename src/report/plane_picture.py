@@ -17,12 +17,17 @@ MOST_DRAWN = 400_000
 STRETCHED = 14.0
 
 
+class NoFields(ValueError):
+    """The run left nothing to draw."""
+
+
 class Drawing:
     def __init__(self, run):
         self.run, self.fields, self.scene = run, run_fields.Fields(run), geometry.Scene3d(run)
         self.water = bool(self.fields.files["particles"])
         if not self.water and not self.fields.files["air"]:
-            raise ValueError(f"{run.folder} has no fields: give the scene [sea.fields] or run the flow to its end")
+            sea = (self.run.scene.get("sea") or {}).get("model") == "sph"
+            raise NoFields(f"{run.folder} has no fields: " + ("give the scene [sea.fields] and run it again" if sea else "run the flow to its end"))
         self.most = self.top = None
 
     def times(self):

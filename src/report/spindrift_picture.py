@@ -97,7 +97,10 @@ def drawing_of(run, given):
         if given.camera != "scene":
             fail(2, f"--camera {given.camera}: sections and tanks are drawn in their plane, without a camera; leave it out")
         import plane_picture
-        return plane_picture.Drawing(run)
+        try:
+            return plane_picture.Drawing(run)
+        except plane_picture.NoFields as none:
+            fail(2, none)
     import quantities
     import scene_picture
     if given.camera == "rotor" and not quantities.rotors_of(run.columns):

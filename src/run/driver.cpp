@@ -47,7 +47,7 @@ io::Summary Driver::run(Simulation& simulation) {
   }();
   // A start that was cut short is not the one that the scene asks for.
   if (!settings_.restart && !stop_.agreed(comm).empty()) throw runtime::StopAsked();
-  if (settings_.restart) spdlog::info("restart from t = {} s", timeline.window_end_s(first));
+  if (settings_.restart) spdlog::info("restart from t = {:.12g} s", timeline.window_end_s(first));
   std::int64_t window = first, last = last_window(timeline);
   if (const std::string settled = simulation.settled(); !settled.empty() && !settings_.changed && first <= last) {
     last = first;
@@ -94,11 +94,11 @@ io::Summary Driver::run(Simulation& simulation) {
   finish_outputs(outputs, simulation, window);
 
   if (summary_.exit_reason.empty())
-    summary_.exit_reason = last < first
-                               ? fmt::format("nothing was left to do: the run had come to t = {} s, and was asked to go to {} s",
-                                             timeline.window_end_s(first), timeline.window_end_s(last))
-                           : last < timeline.windows() ? fmt::format("done until t = {} s as asked", timeline.window_end_s(last))
-                                                       : simulation.done();
+    summary_.exit_reason =
+        last < first ? fmt::format("nothing was left to do: the run had come to t = {:.12g} s, and was asked to go to {:.12g} s",
+                                   timeline.window_end_s(first), timeline.window_end_s(last))
+        : last < timeline.windows() ? fmt::format("done until t = {:.12g} s as asked", timeline.window_end_s(last))
+                                    : simulation.done();
   summary_.restarts = checkpoints.restarts();
   summary_.columns = history.columns();
   if (summary_.exit_code == 0 && window == last_window(timeline)) summary_.statistics = history.statistics();

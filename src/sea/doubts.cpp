@@ -383,11 +383,12 @@ std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOpti
   // docs/user/choosing.md: a wave tank at five particles to the height is right within 1 %, floats by ten to the draft.
   constexpr double to_height = 4.0, to_draft = 5.0;
   const double spacing = sea.particles->spacing_m;
+  const auto below = [](double n) { return std::floor(100.0 * n * (1.0 + 1e-12)) / 100.0; };  // 4.999 is no 5
   if (const double n = waves.height_m / spacing; waves.model != "none" && waves.height_m > 0.0 && n < to_height) {
     notes.push_back(fmt::format(
-        "{:.2g} particles to the height of the waves, {:.4g} m: {}; sea.particles.spacing_m below {:.3g} m makes it {:g}", n,
-        waves.height_m, n < 1.5 ? "too coarse to show them" : "their height errs by some per cent", waves.height_m / to_height,
-        to_height));
+        "{:.3g} particles to the height of the waves, {:.4g} m: {}; sea.particles.spacing_m below {:.3g} m makes it {:g}",
+        below(n), waves.height_m, n < 1.5 ? "too coarse to show them" : "their height errs by some per cent",
+        waves.height_m / to_height, to_height));
     // docs/verification/sea.md: 8, 4 and 1.5 % at 0.75, 1.5 and 2.5 particles to the height, between walls 3.7 % at 3.2.
     if (sea.starts_in_waves() && !sea.led_to_waves())
       notes.push_back(
@@ -397,9 +398,9 @@ std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOpti
   }
   if (const double n = draft / spacing; draft > 0.0 && n < to_draft)
     notes.push_back(
-        fmt::format("{:.2g} particles to the draft of {:.4g} m: its loads are rough; sea.particles.spacing_m below "
+        fmt::format("{:.3g} particles to the draft of {:.4g} m: its loads are rough; sea.particles.spacing_m below "
                     "{:.3g} m makes it {:g}",
-                    n, draft, draft / to_draft, to_draft));
+                    below(n), draft, draft / to_draft, to_draft));
   return notes;
 }
 

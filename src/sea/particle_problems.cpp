@@ -387,8 +387,6 @@ void Rules::judge_shape(const ParticleBody& body, const sph::BodyShape& shape) {
   else
     points = sph::fill_shape(shape, std::max(d, std::pow(sph::volume_of(shape, cut) / enough, planar ? 0.5 : 1.0 / 3.0)), cut);
   const double count = mesh ? std::round(sph::volume_of(shape, cut) / std::pow(d, planar ? 2 : 3)) : double(points.size());
-  if (count < (planar ? 4.0 : 8.0))
-    wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse", count, count == 1.0 ? "" : "s", d));
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
   for (const Eigen::Vector3d& x : points)
     low = low.cwiseMin(body.described.point(x)), high = high.cwiseMax(body.described.point(x));
@@ -402,6 +400,9 @@ void Rules::judge_shape(const ParticleBody& body, const sph::BodyShape& shape) {
   const std::string size = mesh ? fmt::format("; its mesh is {:.4g}{} x {:.4g} m{}: look at its scale", high[0] - low[0], across,
                                               high[2] - low[2], planar ? " in the plane" : "")
                                 : "";
+  if (count < (planar ? 4.0 : 8.0))
+    wrong(key, fmt::format("has a shape of {} particle{} at a spacing of {} m: too coarse{}", count, count == 1.0 ? "" : "s", d,
+                           size));
   if (low[2] < bed) wrong(key, fmt::format("reaches {:.4g} m, below the bed at {:.4g} m{}", low[2], bed, size));
   const bool outside_x = t.sides_x == "wall" && (low[0] < t.x_m[0] || high[0] > t.x_m[1]);
   const bool outside_y =

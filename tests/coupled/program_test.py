@@ -112,6 +112,16 @@ class Program(Folder):
         self.assertGreater(len(summary["parts"]), 2)
         self.assertEqual(summary["rows"], len((self.out / "history.csv").read_text().splitlines()) - 1)
 
+    def test_times_are_told_as_they_were_asked_for(self):
+        self.assertEqual(self.run_case("--until", 1.9, "--quiet", "--set", "time.window_s=0.1").returncode, 0)   # 19 x 0.1 is 1.9000000000000001
+        self.assertEqual(json.loads((self.out / "summary.json").read_text())["exit_reason"], "done until t = 1.9 s as asked")
+
+    def test_a_picture_of_a_tank_without_fields_says_what_the_scene_lacks(self):
+        self.assertEqual(self.run_case("--quiet", "--set", "time.end_s=0.1", scene=ROOT / "inputs/validation/standing_wave/standing_wave.toml").returncode, 0)
+        said = spindrift("picture", self.out)
+        self.assertEqual(said.returncode, 2, said.stdout + said.stderr)
+        self.assertIn("has no fields: give the scene [sea.fields] and run it again", said.stdout + said.stderr)
+
     def test_a_run_on_a_busy_computer_says_so(self):
         core = str(min(os.sched_getaffinity(0)))
         others = [subprocess.Popen(["taskset", "-c", core, sys.executable, "-c", "while True: pass"]) for _ in range(3)]
@@ -694,9 +704,12 @@ model = "morison"
             self.assertNotIn(words, gusty)
         alone = checked("leble_barakos/rotor_demo.toml")[1]   # in air alone
         self.assertIn("Rotor at the start", alone)
+        parked = checked("leble_barakos/rotor_demo.toml", settings=("rotor.speed_rpm=0.0", "rotor.blade_pitch_deg=90.0"))[1]
+        self.assertRegex(parked, r"blade elements +thrust \S+ kN; CT \S+\n")   # what stands has no power
         self.assertIn("blade elements", alone)
         coarse = checked("leble_barakos/case3_demo.toml")[1]
         self.assertIn("note: 0.75 particles to the height of the waves, 1.88 m", coarse)
+        self.assertIn("note: 4.95 particles to the draft of 0.15 m", checked("validation/floating_box/floating_box.toml", settings=("sea.particles.spacing_m=0.0303",))[1])
         left = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period, between walls up to twice that"
         self.assertNotIn(left, coarse)
         self.assertIn(left, checked("leble_barakos/case3_demo.toml", settings=('without=["sea.damping_zones"]',))[1])

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
+#include "kernels/rigid/closed_surface.hpp"
 #include "src/sea/doubts.hpp"
 #include "src/sea/particle_sea.hpp"
 
@@ -131,6 +132,24 @@ TEST_CASE("sound is twice as fast in water that breaks, falls or runs out as in 
     s.sea.water = {upper}, s.sea.obstacles = {lower};
     CHECK(sound() == Approx(held));
   }
+}
+
+TEST_CASE("a shape that is too small for its particles is told with its size: a file in millimetres", "[sea][sph][fast]") {
+  using Catch::Contains;
+  Triangulation t;
+  const Eigen::Vector3d low(-0.4e-3, -0.2e-3, -0.1e-3);
+  for (int k = 0; k < 8; ++k)
+    t.points.emplace_back((k & 1 ? -1 : 1) * low[0], (k & 2 ? -1 : 1) * low[1], (k & 4 ? -1 : 1) * low[2]);
+  t.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  Scene s = particle_tank();
+  s.bodies = {{.name = "hull",
+               .mass = 1e-7,
+               .described = {.position = {2, 1, 0}},
+               .shapes = {Mesh{std::make_shared<const ClosedSurface>(t), Eigen::Vector3d::Zero()}}}};
+  CHECK_THAT(s.refused(),
+             Contains("bodies.hull has a shape of 0 particles at a spacing of 0.1 m: too coarse; its mesh is 0.0008 x "
+                      "0.0004 x 0.0002 m: look at its scale"));
 }
 
 TEST_CASE("boxes of water and obstacles without a particle are refused", "[sea][sph][fast]") {
