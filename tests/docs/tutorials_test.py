@@ -1,6 +1,8 @@
 """The numbers of the tutorials' tables: each is read off the page and compared with what the tutorial's run gives, untouched, to the digits that are
 printed. Usage: tutorials_test.py PROGRAM [--all] [unittest's arguments]; without --all those of a few seconds.
 SPDX-License-Identifier: Apache-2.0"""
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import re
@@ -61,6 +63,14 @@ def at(column, t):
     return lambda run: run[column][np.argmin(abs(run.time - t))]
 
 
+def analysed(figure, scale=1.0):
+    """By ci/wave_analysis."""
+    loader = importlib.machinery.SourceFileLoader("wave_analysis", str(ROOT / "ci/wave_analysis"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("wave_analysis", loader))
+    loader.exec_module(module)
+    return lambda run: scale * module.analyse(run.directory)[figure]
+
+
 # page, or page:run where a page has several: (scene, its overrides, fast, [(row of the table, which of its numbers, what it is)]); numbers are counted from the second cell on.
 PAGES = {
     "pendulum": ("tutorials/pendulum.toml", [], True, [("period of the swing", 0, period("weight.x_m")), ("greatest tension", 0, extreme("line.tension_N", np.max))]),
@@ -78,7 +88,10 @@ PAGES = {
               ("rotor speed", 1, extreme("rotor.rpm", np.min, begin=20.0)), ("rotor speed", 2, extreme("rotor.rpm", np.max, begin=20.0)),
               ("pitch of the blades", 1, extreme("rotor.blade_1.pitch_deg", np.min, begin=20.0)), ("pitch of the blades", 2, extreme("rotor.blade_1.pitch_deg", np.max, begin=20.0))]),
     "floating_box": ("validation/floating_box/floating_box.toml", [], False,
-                     [("`box.sea.fz_N` while held", 1, at("box.sea.fz_N", 0.0)), ("the same, mean after 1.6 s", 0, mean("box.sea.fz_N", 1.6)), ("`box.z_m`", 0, mean("box.z_m", 1.6))]),
+                     [("`box.sea.fz_N` while held", 0, at("box.sea.fz_N", 0.0)), ("`box.pitch_deg`", 0, extreme("box.pitch_deg", np.min, begin=2.5)), ("`box.pitch_deg`", 1, extreme("box.pitch_deg", np.max, begin=2.5)),
+                      ("the same, mean after 1.6 s", 0, mean("box.sea.fz_N", 1.6)), ("`box.z_m`", 0, mean("box.z_m", 1.6))]),
+    "wave_tank": ("validation/wave_tank/small_tank.toml", [], False, [("height at the first gauge", 0, analysed("height_ratio")), ("phase speed", 0, analysed("phase_speed_ratio")),
+                                                                      ("reflected", 0, analysed("reflection", 100.0))]),
     "dropped_cylinder": ("validation/cylinder_drop/cylinder_drop.toml", ["sea.particles.spacing_m=0.006", "sea.fields.surface_spacing_m=0.012"], False,
                          [("depth after 0.16 s", 0, lambda run: -at("cylinder.z_m", 0.16)(run))]),
     "wing_section": ("tutorials/wing_section.toml", [], False, [("lift coefficient", 0, extreme("flow.lift_coefficient", lambda x: x[-1])),
