@@ -60,7 +60,7 @@ class Limits(Folder):
                         self.assertEqual(code, 3, reason)
                         self.assertIn("the loose scheme is unstable at a window of", reason)
                     else:
-                        self.assertGreater(above, 5.0 * below)
+                        self.assertGreater(above, 3.0 * below)   # of the second cps2 grows to four times as much, where the loads bound it
 
 
 if __name__ == "__main__":
