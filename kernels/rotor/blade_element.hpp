@@ -60,8 +60,8 @@ inline double loss_factor(const Annulus& s, double sin_inflow) {
 /// (1 - a) (Coleman, Feingold & Stempin 1945, NACA ARR L5E10; Burton et al. 2011, section 3.10.6). All air that goes along the
 /// wake is slowed, more than what goes straight through the disc.
 struct SkewedWake {
-  double across = 0.0, half = 0.0,
-         growth = 0.0;                     ///< tan(gamma), tan(gamma/2), and what the latter grows by for an induction of 1
+  double across, half;                     ///< tan(gamma), tan(gamma/2)
+  double growth;                           ///< of the latter to tan(chi/2), for an induction of 1
   explicit SkewedWake(double gamma = 0.0)  ///< [rad]
       : across(std::tan(gamma)), half(std::tan(0.5 * gamma)), growth(0.6 * half * (1.0 - 4.0 / (pi * pi) * gamma * gamma)) {}
   bool level() const { return across == 0.0; }
@@ -109,15 +109,18 @@ struct InductionMadsen {
   double slowdown(double k, double /*loss*/, const SkewedWake& wake = SkewedWake()) const {
     if (k <= 0.0) return 1.0 + k;
     const auto induction = [](double c) { return ((0.0883 * c + 0.0586) * c + 0.246) * c; };
+    if (!wake.level()) {
+      constexpr double standing = 1.7;  // more than that of a = 1
+      const auto over = [&](double c) {
+        const double a = induction(c), rest = std::max(1.0 - a, 0.0);
+        return c / wake.straight_share(a) - 4.0 * k * rest * rest;
+      };
+      return 1.0 / (1.0 - induction(bracketed_root(over, 0.0, over(0.0), standing, over(standing), 1e-15).x));
+    }
     const Root loading = increasing_root(
         [&](double c) {
-          const double a = induction(c), rest = std::max(1.0 - a, 0.0), slope = (3.0 * 0.0883 * c + 2.0 * 0.0586) * c + 0.246;
-          const ValueAndSlope level{c - 4.0 * k * rest * rest, 1.0 + 8.0 * k * rest * slope};
-          if (wake.level()) return level;
-          constexpr double least = 1e-12;
-          const double x = wake.lean(std::min(a, 1.0 - least)), r = std::sqrt(1.0 + x * x);  // all air over the straight part
-          const double q = std::max(rest, least), change = x / r * (wake.across - x / (1.0 + r)) / (q * q);  // dr/da, nearly
-          return ValueAndSlope{level.value + c * (r - 1.0), level.slope + (rest > least ? r - 1.0 + c * change * slope : 0.0)};
+          const double rest = std::max(1.0 - induction(c), 0.0), slope = (3.0 * 0.0883 * c + 2.0 * 0.0586) * c + 0.246;
+          return ValueAndSlope{c - 4.0 * k * rest * rest, 1.0 + 8.0 * k * rest * slope};
         },
         k < 1.0 ? 4.0 * k / ((1.0 + k) * (1.0 + k)) : 1.0);
     return 1.0 / (1.0 - induction(loading.x));
@@ -166,7 +169,7 @@ ElementState solve_element(const Annulus& s, double normal_wind, double tangenti
     const double k = load / std::abs(sine) * (side * f.lift * cosine + f.drag * sine);
     const bool slowed = phi > 0.0 && k > 0.0;  // else propeller or, below zero, brake and fan
     const double driven = slowed ? 1.0 : driven_share(k, phi);
-    const double slowdown = slowed ? induction.slowdown(k, loss, wake) : 1.0 + (phi < 0.0 ? -k : k) * driven;
+    const double slowdown = phi < 0.0 ? 1.0 - k * driven : induction.slowdown(k * driven, loss, wake);
     const double share = slowed ? wake.straight_share(1.0 - 1.0 / slowdown) : driven;
     const double rise = sine * slowdown, swirl = cosine - load * share * (side * f.lift * sine - f.drag * cosine);
     return Balance{vy * rise - vx * swirl, rise, swirl, slowdown};
@@ -175,46 +178,33 @@ ElementState solve_element(const Annulus& s, double normal_wind, double tangenti
   using Brackets = std::array<std::array<double, 2>, 3>;
   constexpr Brackets forward{{{edge, half}, {half, pi - edge}, {-half, -edge}}};  // windmill, beyond 90 degrees, brake or fan
   constexpr Brackets backward{{{half, pi - edge}, {edge, half}, {-pi + edge, -half}}};
-  // Air that all but stands in the disc is a flow only where the other way round there is none: a rotor that drives air against a
-  // weak wind has both balances.
-  constexpr double standing = 20.0;  // slowdown: a = 0.95
-  ElementState best, last_resort;
+  constexpr double standing = 20.0, farthest = 1e300;  // slowdown of a = 0.95
+  ElementState best;
   double least = std::numeric_limits<double>::infinity();  // induced velocity
-  const auto seek = [&](double low, double high) {
+  for (const auto& [low, high] : vy < 0.0 ? backward : forward) {
     const double at_low = balance(low).residual, at_high = balance(high).residual;
-    if ((at_low > 0.0) == (at_high > 0.0)) return;
+    if ((at_low > 0.0) == (at_high > 0.0)) continue;
     const Root root =
         bracketed_root([&](double phi) { return balance(phi).residual; }, low, at_low, high, at_high, inflow_tolerance);
     const Balance b = balance(root.x);
     const double speed =
         (vx * b.rise + vy * b.swirl) / (b.rise * b.rise + b.swirl * b.swirl);  // two equations for one: least squares
-    if (!(speed > 0.0)) return;                                                // a sign change without a flow
-    const double wind = speed * std::sin(root.x), motion = speed * std::cos(root.x), induced = std::hypot(wind - vx, motion - vy);
-    // A blade almost at rest has a second balance, with a wake many times the wind: the nearer one is the flow.
+    if (!(speed > 0.0)) continue;                                              // a sign change without a flow
+    const double wind = speed * std::sin(root.x), motion = speed * std::cos(root.x);
+    // A blade almost at rest has a second balance, with a wake many times the wind: the nearer one is the flow. Air that all but
+    // stands is one only where there is no other: a rotor that drives air against a weak wind has both.
     const bool stands = root.x > 0.0 && b.slowdown > standing;
-    if (stands ? last_resort.balanced : induced >= least) return;
-    ElementState& found = stands ? last_resort : best;
-    if (!stands) least = induced;
-    found = element_forces(s, side * wind, motion, polar);
-    found.axial_induction = 1.0 - 1.0 / b.slowdown;
-    found.tangential_induction = std::cos(root.x) / b.swirl - 1.0;
-    found.balanced = true;
-  };
-  for (const auto& [low, high] : vy < 0.0 ? backward : forward) {
-    seek(low, high);
-    if (best.balanced && low == edge && high == half && vy >= 0.0) break;  // a windmill's balance is the only one there
-  }
-  // With wind across the load on little air is bounded: near an edge there may be a second root, so that the ends agree in sign.
-  for (const auto& [low, high] : vy < 0.0 ? backward : forward) {
-    if (best.balanced || wake.level()) break;
-    const double inwards = std::abs(std::sin(low)) < 0.5 ? 1.0 : -1.0;  // the other end is at 90 degrees
-    double from = inwards > 0.0 ? low : high;
-    for (const double off : {1e-3, 0.1, half - edge}) {
-      const double to = (inwards > 0.0 ? low : high) + inwards * off;
-      seek(std::min(from, to), std::max(from, to)), from = to;
+    const double induced = stands ? farthest : std::hypot(wind - vx, motion - vy);
+    if (induced < least) {
+      least = induced;
+      best = element_forces(s, side * wind, motion, polar);
+      best.axial_induction = 1.0 - 1.0 / b.slowdown;
+      best.tangential_induction = std::cos(root.x) / b.swirl - 1.0;
+      best.balanced = true;
     }
+    if (!stands && low == edge && high == half && vy >= 0.0) break;  // a windmill's balance is the only one there
   }
-  if (best.balanced || last_resort.balanced) return best.balanced ? best : last_resort;
+  if (best.balanced) return best;
   ElementState undisturbed = element_forces(s, normal_wind, tangential_wind, polar);
   undisturbed.balanced = vx == 0.0 && cross_wind > 0.0;  // nothing goes straight through: this is the balance
   return undisturbed;
