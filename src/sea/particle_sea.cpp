@@ -59,7 +59,7 @@ sph::Patch patch_of(const ParticlePlan& plan, const SensorOptions& sensor, const
     const auto named = std::ranges::find(plan.bodies, sensor.body, &ParticleBody::name);
     const Eigen::Vector3d& origin = named->described.position;
     patch = sph::patch_of_body(solid(solids.owner(std::size_t(named - plan.bodies.begin()))), named->shapes,
-                               sensor.low_m - origin, sensor.high_m - origin, d, cut);
+                               sensor.low_m - origin, sensor.high_m - origin, sea.p, cut);
   } else {
     const sph::TankPlan::Block box = sph::particles_of_rectangle(sensor.low_m, sensor.high_m, sea.p.reach());
     patch = {.owner = sph::wall_owner, .low = box.low, .high = box.high};

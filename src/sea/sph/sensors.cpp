@@ -31,6 +31,7 @@ Eigen::Vector3d nearest_of_surface(std::span<const BodyShape> shapes, Eigen::Vec
   constexpr double level = 0.1;           // of a gradient that is 1 but where several faces are equally near
   for (int turn = 0; turn < 4; ++turn) {  // one is enough but at edges
     const double off = signed_distance(shapes, x, cut);
+    if (std::abs(off) < 1e-6 * spacing) break;
     const auto slope_between = [&](double behind, double ahead) {
       Eigen::Vector3d slope = Eigen::Vector3d::Zero();
       for (int k = 0; k < 3; ++k) {
@@ -49,26 +50,38 @@ Eigen::Vector3d nearest_of_surface(std::span<const BodyShape> shapes, Eigen::Vec
   return x;
 }
 
+/// visit(n, nearest point, whether it is one of the surface under an outermost particle) for the particles that are not deeper in
+/// the body than this [m].
+template <class Visit>
+void for_nearest(const Points& particles, std::span<const BodyShape> shapes, double deepest, double spacing, Cut cut,
+                 Visit&& visit) {
+  for (std::size_t n = 0; n < particles.size(); ++n) {
+    const double distance = signed_distance(shapes, particles[n], cut);
+    if (distance < -deepest) continue;
+    const Eigen::Vector3d point = nearest_of_surface(shapes, particles[n], spacing, cut);
+    visit(n, point, distance >= -spacing && std::abs(signed_distance(shapes, point, cut)) < 0.1 * spacing);
+  }
+}
+
 }  // namespace
 
 Points points_of_surface(const Points& particles, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
                          const Eigen::Vector3d& high, double spacing, Cut cut) {
   Points points;
-  for (const Eigen::Vector3d& x : particles) {
-    if (signed_distance(shapes, x, cut) < -spacing) continue;
-    const Eigen::Vector3d point = nearest_of_surface(shapes, x, spacing, cut);
-    if (std::abs(signed_distance(shapes, point, cut)) < 0.1 * spacing && in_box(point, low, high, cut == Cut::plane))
-      points.push_back(point);
-  }
+  for_nearest(particles, shapes, spacing, spacing, cut, [&](std::size_t, const Eigen::Vector3d& point, bool on_surface) {
+    if (on_surface && in_box(point, low, high, cut == Cut::plane)) points.push_back(point);
+  });
   return points;
 }
 
 Patch patch_of_body(const Solid& solid, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
-                    const Eigen::Vector3d& high, double spacing, Cut cut) {
+                    const Eigen::Vector3d& high, const Parameters& p, Cut cut) {
   Patch patch{.owner = solid.owner, .low = low, .high = high};
-  patch.points = points_of_surface(solid.local, shapes, low, high, spacing, cut);
-  for (const Eigen::Vector3d& x : solid.local)
-    patch.counted.push_back(in_box(nearest_of_surface(shapes, x, spacing, cut), low, high, cut == Cut::plane));
+  patch.counted.assign(solid.local.size(), false);  // of those deeper than water reaches too
+  for_nearest(solid.local, shapes, p.reach(), p.spacing, cut, [&](std::size_t n, const Eigen::Vector3d& point, bool on_surface) {
+    patch.counted[n] = in_box(point, low, high, cut == Cut::plane);
+    if (on_surface && patch.counted[n]) patch.points.push_back(point);
+  });
   return patch;
 }
 

@@ -45,7 +45,7 @@ Points points_of_surface(const Points& particles, std::span<const BodyShape> sha
 /// The patch of a body's surface inside a box of body axes. Particles count by the point of the surface nearest to them: water
 /// presses on several rows of particles, and a thin box along the surface holds one of them or none.
 Patch patch_of_body(const Solid& solid, std::span<const BodyShape> shapes, const Eigen::Vector3d& low,
-                    const Eigen::Vector3d& high, double spacing, Cut cut);
+                    const Eigen::Vector3d& high, const Parameters& p, Cut cut);
 /// A patch of the wall goes with the paddle that stands there, whose centre is at `origin`.
 void put_on_paddle(Patch& patch, const Solid& paddle, const Eigen::Vector3d& origin, Cut cut);
 

@@ -67,10 +67,11 @@ TEST_CASE("patches in still water read the pressure at their middle within 1 % o
   sea.add_sensor(side), sea.add_sensor(bed);
   for (const auto& [low, high] : {std::pair{-9.0, 0.0}, {0.0, 9.0}}) {
     const Eigen::Vector3d from(-9, -9, low), to(9, 9, high);
-    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
+    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p, Cut::plane));
   }
   const Eigen::Vector3d from(-0.2, -9, -0.31), to(0.2, 9, -0.29);  // thinner than a row of particles, away from the edges
-  sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
+  sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p, Cut::plane));
+  CHECK_THROWS_AS(sea.add_sensor({.owner = owner, .low = from, .high = to}), std::invalid_argument);  // nothing says which count
   sea.set_bodies([](const HalfStep&, std::span<const Wrench>, std::span<Motion>) {});
   sea.set_step_control({.steps_per_check = 1});
   sea.advance(0.6);
@@ -102,7 +103,7 @@ TEST_CASE("patches share out the load on a body whose particles have its own mas
   sea.add_body(tank.bodies[0], plan.bodies[0].motion, 0.4 * double(tank.body_points[0].size()) * p.mass(2));
   for (const auto& [low, high] : {std::pair{-9.0, 0.0}, {0.0, 9.0}}) {
     const Eigen::Vector3d from(-9, -9, low), to(9, 9, high);
-    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p.spacing, Cut::plane));
+    sea.add_sensor(patch_of_body(sea.state().solids.back(), std::vector{hull}, from, to, p, Cut::plane));
   }
   sea.evaluate();
   read_sensors(sea.state(), MPI_COMM_SELF);
