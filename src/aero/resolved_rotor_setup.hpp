@@ -43,6 +43,10 @@ struct ResolvedRotorSize : FlowSize {
 };
 ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup);
 
+/// Physical steps in which the rotor turns by more than 4 degrees: where little is left of the step before, their pseudo-steps
+/// cost as those of a steady march.
+bool turns_far(const ResolvedRotorSetup& setup);
+
 /// Processor seconds per cell and pseudo-step of this scene's schemes on this computer: a short march on some thousand cells,
 /// one thread.
 struct AirRate {

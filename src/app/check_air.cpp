@@ -57,13 +57,6 @@ void try_grid(const aero::ResolvedRotorSetup& setup, int ranks) {
 }
 
 /// Of a resolved rotor on bodies; what is said of its loads elsewhere is by blade elements.
-aero::ResolvedRotorSetup resolved_rotor_on(const FloatingSystem& floating, const coupling::Start& start) {
-  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(floating.scenario());
-  setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
-  return setup;
-}
-
-/// Of a resolved rotor on bodies.
 PartCost print_rotor_air(const FloatingSystem& floating, const coupling::Start& start, bool calibrate) {
   const coupling::Scenario& s = floating.scenario();
   const aero::ResolvedRotorSetup setup = resolved_rotor_on(floating, start);
@@ -74,7 +67,7 @@ PartCost print_rotor_air(const FloatingSystem& floating, const coupling::Start& 
   print_far_sides(setup.grid);
   print_first_cells(expected_first_cells(setup), "the blade's chord", coupling::more_layers(s));
   const bool strong = is_strong(s.coupling.scheme);
-  return cost_of_air(setup, size, coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, calibrate);
+  return cost_of_air(setup, size, coupled_pseudo_steps(s, &setup), s.start.air_steps, strong ? 2 : 1, calibrate);
 }
 
 /// The turbulence model, or what the flow is without one.
@@ -95,7 +88,7 @@ void print_resolved_rotor(const coupling::Scenario& s, const scene::Doubts& angl
   print_doubts(angles, coupling::air_doubts(s));
   print_rotor_at_start(s);
   print_first_cells(expected_first_cells(setup), "the blade's chord", coupling::more_layers(s));
-  const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s), 0.0, 1, calibrate);
+  const PartCost cost = cost_of_air(setup, size, expected_pseudo_steps(s, &setup), 0.0, 1, calibrate);
   print_cost(std::span(&cost, 1), s.time.end_s, ranks, base, setup.flow.time == "steady");
 }
 

@@ -17,6 +17,7 @@
 #include "src/aero/flow_grid.hpp"
 #include "src/aero/flow_size.hpp"
 #include "src/app/aside.hpp"
+#include "src/coupling/air_march.hpp"
 #include "src/coupling/flow_scene.hpp"
 #include "src/coupling/recorder.hpp"
 #include "src/run/flow_columns.hpp"
@@ -78,10 +79,10 @@ void add_columns_of_air(std::vector<std::string>& names, std::initializer_list<s
 bool exchanges(const coupling::Scenario& s) { return s.has_rotor() && s.coupling.scheme != coupling::SchemeKind::monolithic; }
 
 /// Pseudo-steps of a steady flow, as air settles before t = 0, in those of this one.
-double settling_steps(const aero::FlowOptions& flow, double steps) {
+double settling_steps(const aero::FlowOptions& flow, double steps, double seconds_per_cell) {
   aero::FlowOptions steady = flow;
   steady.time = "steady";
-  return steps * seconds_per_cell(steady) / seconds_per_cell(flow);
+  return steps * aero::seconds_per_cell(steady) / seconds_per_cell;
 }
 
 double iterations(const coupling::Scenario& s) {
@@ -195,7 +196,7 @@ PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::Resolved
                 .work = steps.work,
                 .core_seconds_per_work = size.core_seconds_per_pseudo_step,
                 .rate = {},
-                .work_before = settling_steps(setup.flow, before)};
+                .work_before = settling_steps(setup.flow, before, size.core_seconds_per_pseudo_step / double(size.cells))};
   // A steady march begins on a grid of half the cells along each direction.
   if (setup.flow.time == "steady") cost.work_before += 0.125 * setup.flow.coarse_steps.value_or(0);
   std::string source = "stated for a core of 50 GFLOP/s; --calibrate measures it";
@@ -258,10 +259,10 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
   };
   if (s.has_actuator()) add(cost_of_flow(s, aero::flow_grid(*s.aero.flow)));
   if (has_resolved_rotor(s)) {
-    aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-    setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
+    const aero::ResolvedRotorSetup setup = resolved_rotor_on(floating, start);
     const bool strong = is_strong(s.coupling.scheme);
-    add(cost_of_air(setup, aero::resolved_rotor_size(setup), coupled_pseudo_steps(s), s.start.air_steps, strong ? 2 : 1, true));
+    add(cost_of_air(setup, aero::resolved_rotor_size(setup), coupled_pseudo_steps(s, &setup), s.start.air_steps, strong ? 2 : 1,
+                    true));
   }
   if (floating.particle_plan()) {
     const sea::ParticleCensus census = particle_census(*floating.particle_plan(), start.state.motions);
@@ -274,19 +275,25 @@ Forecast forecast(FloatingSystem& floating, const coupling::Start& start) {
 }
 
 // Pseudo-steps that recorded runs with the default march took (docs/developer/notes/coupled_system.md). A steady rotor until its
-// loads settle: 64 to 141 from 6 to 20 m/s. The steady flow of a disc: 23 to a drop of 1e-2, 60 to 1e-3. Any other steady flow:
-// 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A physical step for each order: 3, of lines 2, of a disc 1.
-constexpr double steps_of_rotor = 85.0, steps_of_steady = 75.0, steady_steps_per_order_of_disc = 18.0,
-                 unsteady_steps_per_order = 3.0, steps_per_order_of_lines = 2.0, steps_per_order_of_disc = 1.0;
+// loads settle: 64 to 141 from 6 to 20 m/s; parked 284, with blades at 90 degrees. The steady flow of a disc: 23 to a drop of
+// 1e-2, 60 to 1e-3. Any other steady flow: 60 to 92, whether its flux balance is to fall by 1e-3 or by 1e-5. A physical step for
+// each order: 3, of lines 2, of a disc 1; of a rotor with friction 2 after the first step, where it turns by 5.5 degrees in one 8
+// and 9, by 13.7 degrees 2.6 to 7.
+constexpr double steps_of_rotor = 85.0, steps_of_parked_rotor = 280.0, steps_of_steady = 75.0,
+                 steady_steps_per_order_of_disc = 18.0, unsteady_steps_per_order = 3.0, steps_per_order_of_rotor = 2.0,
+                 steps_per_order_of_far_turns = 9.0, steps_per_order_of_lines = 2.0, steps_per_order_of_disc = 1.0;
 
 double orders(double drop) { return -std::log10(std::clamp(drop, 1e-16, 0.5)); }
 
-PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
+PseudoSteps expected_pseudo_steps(const coupling::Scenario& s, const aero::ResolvedRotorSetup* rotor) {
   const aero::FlowOptions& flow = *s.aero.flow;
   const double windows = s.time.end_s / s.time.window_s;
   if (flow.time == "steady") {
     const bool by_loads = has_resolved_rotor(s) && coupling::resolved_rotor_setup(s).flow.load_change.value_or(0.0) > 0.0;
     if (!by_loads && flow.drop <= 0.0) return {1.0 / s.time.window_s, "pseudo-steps"};
+    if (by_loads && rotor && rotor->rotor.speed == 0.0)
+      return {std::min(windows, steps_of_parked_rotor) / s.time.end_s,
+              "pseudo-steps until it has settled, as parked rotors may take,"};
     const double usual = by_loads           ? steps_of_rotor
                          : s.has_actuator() ? steady_steps_per_order_of_disc * orders(flow.drop)
                                             : steps_of_steady;
@@ -294,15 +301,30 @@ PseudoSteps expected_pseudo_steps(const coupling::Scenario& s) {
   }
   const double most = flow.max_pseudo_steps;
   if (flow.drop <= 0.0) return {most / s.time.window_s, "pseudo-steps"};
-  const double per_order = s.aero.model == "actuator_disc"   ? steps_per_order_of_disc
+  const auto of_window = [&](double per_order) { return std::min(most, std::ceil(per_order * orders(flow.drop))); };
+  if (rotor && aero::turns_far(*rotor)) {
+    const double least = of_window(steps_per_order_of_rotor), up_to = of_window(steps_per_order_of_far_turns);
+    return {up_to / s.time.window_s,
+            fmt::format("pseudo-steps, up to {:.0f} and down to {:.0f} of a step in which the rotor turns by {:.3g} degrees,",
+                        up_to, least, std::abs(rotor->rotor.speed) * rotor->dt / radians_per_degree)};
+  }
+  const double per_order = rotor && flow.viscous != "none"   ? steps_per_order_of_rotor
+                           : s.aero.model == "actuator_disc" ? steps_per_order_of_disc
                            : s.aero.model == "actuator_line" ? steps_per_order_of_lines
                                                              : unsteady_steps_per_order;
-  return {std::min(most, std::ceil(per_order * orders(flow.drop))) / s.time.window_s,
-          "pseudo-steps, as many as are usual to the drop,"};
+  return {of_window(per_order) / s.time.window_s, "pseudo-steps, as many as are usual to the drop,"};
 }
 
-PseudoSteps coupled_pseudo_steps(const coupling::Scenario& s) {
-  PseudoSteps steps = expected_pseudo_steps(s);
+aero::ResolvedRotorSetup resolved_rotor_on(const FloatingSystem& floating, const coupling::Start& start) {
+  const coupling::Scenario& s = floating.scenario();
+  aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
+  setup.rotor.speed = floating.rotor()->state(0.0, start.state.motions).speed;
+  setup.dt = coupling::step_of(s);
+  return setup;
+}
+
+PseudoSteps coupled_pseudo_steps(const coupling::Scenario& s, const aero::ResolvedRotorSetup* rotor) {
+  PseudoSteps steps = expected_pseudo_steps(s, rotor);
   if (is_strong(s.coupling.scheme)) steps.per_second *= s.coupling.samples;
   return steps;
 }
@@ -404,7 +426,7 @@ PartCost cost_of_flow(const coupling::Scenario& s, const aero::MultiBlockGrid& g
                 .work = steps.work,
                 .core_seconds_per_work = size.core_seconds_per_pseudo_step,
                 .rate = {},
-                .work_before = settling_steps(*s.aero.flow, s.start.air_steps)};
+                .work_before = settling_steps(*s.aero.flow, s.start.air_steps, seconds_per_cell(*s.aero.flow))};
   std::string source = "stated for a core of 50 GFLOP/s";
   if (s.has_flow() && shortest_trial_s(s, size, steps) < longest_trial_s) {
     if (const std::optional<FlowTrial> trial = try_flow(s)) {
@@ -430,7 +452,7 @@ Forecast forecast_of_air(const coupling::Scenario& s) {
   PartCost cost;
   if (has_resolved_rotor(s)) {
     const aero::ResolvedRotorSetup setup = coupling::resolved_rotor_setup(s);
-    cost = cost_of_air(setup, aero::resolved_rotor_size(setup), expected_pseudo_steps(s), 0.0, 1, true);
+    cost = cost_of_air(setup, aero::resolved_rotor_size(setup), expected_pseudo_steps(s, &setup), 0.0, 1, true);
   } else {
     cost = cost_of_flow(s, aero::flow_grid(*s.aero.flow));
   }

@@ -33,9 +33,12 @@ struct PseudoSteps {
   double per_second = 0.0;  ///< simulated
   std::string work;
 };
-PseudoSteps expected_pseudo_steps(const coupling::Scenario& scenario);
+/// `rotor`: the resolved one, as it is at the start; none of other flows.
+PseudoSteps expected_pseudo_steps(const coupling::Scenario& scenario, const aero::ResolvedRotorSetup* rotor = nullptr);
 /// The same of air with bodies, in all evaluations of a window.
-PseudoSteps coupled_pseudo_steps(const coupling::Scenario& scenario);
+PseudoSteps coupled_pseudo_steps(const coupling::Scenario& scenario, const aero::ResolvedRotorSetup* rotor = nullptr);
+/// Of a resolved rotor on bodies: with its speed at the start and the air's physical step.
+aero::ResolvedRotorSetup resolved_rotor_on(const coupling::FloatingSystem& floating, const coupling::Start& start);
 
 /// Of a resolved rotor with these pseudo-steps, and so many before t = 0; notes: states kept.
 PartCost cost_of_air(const aero::ResolvedRotorSetup& setup, const aero::ResolvedRotorSize& size, const PseudoSteps& steps,

@@ -723,6 +723,15 @@ model = "morison"
         steps = lambda scene: float(re.search(r"([.\d]+) pseudo-steps", checked(f"leble_barakos/{scene}.toml")[1]).group(1))
         self.assertEqual(steps("rotor_rans"), 140)  # all that the scene asks for: drop = 0
         self.assertLess(steps("rotor_demo"), 140)   # until the loads have settled
+        # A parked rotor takes longer; physical steps by the turn of the rotor in one: see docs/developer/notes/coupled_system.md.
+        rotor = lambda *settings: re.search(r"([.\d]+) (pseudo-steps.*?) (?:per simulated second )?of \S+ core-s each \((\S+) us per cell", checked("leble_barakos/rotor_demo.toml", settings=settings)[1]).groups()
+        self.assertEqual(rotor("rotor.speed_rpm=0.0", "rotor.blade_pitch_deg=90.0")[0], "280")
+        unsteady = ("aero.flow.time=bdf2", "time.end_s=5.0", "aero.flow.drop=1e-3")
+        count, words, rate = rotor(*unsteady, "time.window_s=0.05")
+        self.assertEqual((count, rate), ("120", "8"))   # six in each: taken 6, 6, 5
+        count, words, rate = rotor(*unsteady, "time.window_s=0.25")
+        self.assertEqual((count, rate), ("108", "12"))
+        self.assertIn("up to 27 and down to 6 of a step in which the rotor turns by 13.3 degrees", words)
         air = checked("tutorials/wing_section.toml")[1]   # on a grid of its own
         self.assertGreater(float(re.search(r"predicted core-hours +(\S+) core-hours", air).group(1)), 1e-4)
         demo, workstation, paper = cost("demo"), cost("workstation"), cost("paper")
