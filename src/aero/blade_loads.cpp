@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -59,6 +61,14 @@ FlexibleBlades::Bending BladeLoads::settled(const BladesAt& at, std::span<const 
   constexpr int most = 50;  // the air's force hardly changes with bending: each pass leaves a tenth or less of the error
   constexpr double enough = 1e-12;
   double left = 0.0;
+  // Of soft blades a pass may leave most of the error, or more of it. Such a blade goes a share of the way from then on, by
+  // Aitken's rule for vectors (Irons & Tuck 1969, Int. J. Numer. Meth. Eng. 1, 275).
+  struct Way {
+    FlexibleBlades::Modal asked = FlexibleBlades::Modal::Zero();
+    double change = std::numeric_limits<double>::infinity(), share = 1.0;
+    bool slow = false;
+  };
+  std::array<Way, most_blades> ways;
   for (int pass = 0; pass < most; ++pass) {
     const FlexibleBlades::Bending before = bending;
     const BentBlades bent = flexible_->bent(before);
@@ -66,11 +76,20 @@ FlexibleBlades::Bending BladeLoads::settled(const BladesAt& at, std::span<const 
     elements_.on_modes(at.wind, motion, at.t, flow, used(air));
     flexible_->settle(motion, at.hub, air, bending);
     double change = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < modes; ++k)
-      change = std::max(change, std::abs(bending.amplitudes[k] - before.amplitudes[k])),
-      size = std::max(size, std::abs(bending.amplitudes[k]));
+    for (int b = 0; b < flexible_->blades(); ++b) {
+      Way& way = ways[std::size_t(b)];
+      const FlexibleBlades::Modal asked = bending.amplitude(b) - before.amplitude(b), by = asked - way.asked;
+      const double now = asked.cwiseAbs().maxCoeff();
+      change = std::max(change, now), size = std::max(size, bending.amplitude(b).cwiseAbs().maxCoeff());
+      way.slow = way.slow || now > 0.5 * way.change;
+      if (way.slow && by.squaredNorm() > 0.0)
+        way.share = std::clamp(-way.share * way.asked.dot(by) / by.squaredNorm(), 0.05, 1.0);
+      way.asked = asked, way.change = now;
+    }
     if (change <= enough * size) return bending;
     left = change / size;
+    for (int b = 0; b < flexible_->blades(); ++b)
+      if (const Way& way = ways[std::size_t(b)]; way.slow) bending.amplitude(b) = before.amplitude(b) + way.share * way.asked;
   }
   constexpr double close = 1e-3;
   if (!(left <= close))

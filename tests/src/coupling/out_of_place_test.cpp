@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/coupling/out_of_place.hpp"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "src/coupling/start.hpp"
 #include "tests/src/coupling/scenes.hpp"
@@ -49,6 +55,24 @@ TEST_CASE("a blade that bends by more than a third of its length is named", "[co
   REQUIRE(found);
   CHECK_THAT(found->what(), Contains("blade") && Contains("a third of its length"));
   CHECK(found->place == "rotor");
+}
+
+TEST_CASE("blades so soft that the air's force follows their bending find their rest", "[coupling][fast]") {
+  // The blade of rubber, softer still: passes that go their whole way swing to and fro.
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "spindrift_softer_blade.csv";
+  {
+    std::ifstream rubber(SPINDRIFT_SOURCE_DIR "/tests/extremes/files/blade_rubber.csv");
+    std::ofstream softer(file);
+    for (std::string line; std::getline(rubber, line);) {
+      double span, mass, flap, edge, twist;
+      if (std::sscanf(line.c_str(), "%lf, %lf, %lf, %lf, %lf", &span, &mass, &flap, &edge, &twist) == 5)
+        line = fmt::format("{}, {}, {}, {}, {}", span, mass, 0.7 * flap, 0.7 * edge, twist);
+      softer << line << '\n';
+    }
+  }
+  FloatingSystem floating(test::scenario("base = \"inputs/leble_barakos/flexible_blades.toml\"\n",
+                                         {"rotor.blade_structure='" + file.string() + "'", "wind.speed_m_s=20.0"}));
+  CHECK_NOTHROW(make_start(floating));
 }
 
 TEST_CASE("bodies that begin in each other or in the tank are refused by name, unless a joint ties them there",
