@@ -22,6 +22,7 @@ struct DynamicStallBeddoesLeishman {
   // In half chords that pass: lags of pressure, of separation and of the vortex's force, and its way along the chord; of the
   // wake.
   static constexpr double pressure_lag = 1.7, separation_lag = 3.0, vortex_lag = 6.0, vortex_way = 11.0;
+  static constexpr double turned_round = 20.0 * radians_per_degree;  // in a step
   static constexpr double A1 = 0.3, A2 = 0.7, b1 = 0.14, b2 = 0.53;
 
   double zero_lift = 0.0;  ///< angle [rad]
@@ -80,11 +81,13 @@ struct DynamicStallBeddoesLeishman {
     return s;
   }
 
-  /// After h in the relative speed [m/s], at whose end the angle of attack is this.
+  /// After h in the relative speed [m/s], at whose end the angle of attack is this. Wind that turns round a section at rest,
+  /// whose speed goes through zero, is no motion of the section in a stream: the state begins anew from the polar.
   template <class Polar>
   State advance(State s, double attack, double beta, double h, double chord, double speed, const Polar& polar) const {
     if (slope <= 0.0) return s;
     const double way = 2.0 * std::max(speed, 1e-3) * h / chord, turned = within_half_turn(attack - s.attack);
+    if (std::abs(turned) > turned_round || away(attack) >= 1.0) return settled(attack, beta, polar);
     const double rate = turned / h, steep = slope / beta;
     s.wake_1 = s.wake_1 * std::exp(-b1 * beta * beta * way) + A1 * turned * std::exp(-0.5 * b1 * beta * beta * way);
     s.wake_2 = s.wake_2 * std::exp(-b2 * beta * beta * way) + A2 * turned * std::exp(-0.5 * b2 * beta * beta * way);
@@ -116,19 +119,27 @@ struct DynamicStallBeddoesLeishman {
   template <class Polar>
   SectionForce force(const State& s, double attack, double beta, const Polar& polar) const {
     const SectionForce steady = polar(attack);
-    const double off = std::abs(within_half_turn(attack - zero_lift));
-    const double away =
-        std::clamp((off - DynamicStallOye::fade_from) / (DynamicStallOye::fade_to - DynamicStallOye::fade_from), 0.0, 1.0);
-    if (slope <= 0.0 || away >= 1.0) return steady;
+    const double out = away(attack);
+    if (slope <= 0.0 || out >= 1.0) return steady;
     const double effective = attack - s.wake_1 - s.wake_2, circulatory = slope / beta * (effective - zero_lift);
     const Separation now = separation(effective, beta, polar);
     const double normal = now.attached * s.separation + now.separated * (1.0 - s.separation) + s.impulse + s.vortex;
-    const double chordwise = circulatory * std::tan(effective) - s.loss, sine = std::sin(attack), cosine = std::cos(attack);
+    const double suction = circulatory * std::tan(near_zero_lift(effective));
+    // What was lost at a larger angle than now is at most all the suction that there is.
+    const double chordwise = suction - std::min(s.loss, std::max(suction, loss(effective, beta, polar))), sine = std::sin(attack),
+                 cosine = std::cos(attack);
     const SectionForce moving{normal * cosine + chordwise * sine, drag_0 + normal * sine - chordwise * cosine};
-    return {steady.lift + (1.0 - away) * (moving.lift - steady.lift), steady.drag + (1.0 - away) * (moving.drag - steady.drag)};
+    return {steady.lift + (1.0 - out) * (moving.lift - steady.lift), steady.drag + (1.0 - out) * (moving.drag - steady.drag)};
   }
 
  private:
+  /// 0 where the model holds, 1 where the flow is separated however it came there.
+  double away(double attack) const {
+    const double off = std::abs(within_half_turn(attack - zero_lift));
+    return std::clamp((off - DynamicStallOye::fade_from) / (DynamicStallOye::fade_to - DynamicStallOye::fade_from), 0.0, 1.0);
+  }
+  /// Full suction is that of small angles: its tangent ends at one radian from zero lift.
+  double near_zero_lift(double attack) const { return std::clamp(attack, zero_lift - 1.0, zero_lift + 1.0); }
   static double lagged(double value, double from, double to, double way, double lag) {
     return spindrift::lagged(value, from, to, way, lag);
   }
@@ -152,7 +163,7 @@ struct DynamicStallBeddoesLeishman {
   /// What the polar's chordwise force lacks of full suction.
   template <class Polar>
   double loss(double attack, double beta, const Polar& polar) const {
-    const double bounded = std::clamp(attack, zero_lift - 1.0, zero_lift + 1.0);
+    const double bounded = near_zero_lift(attack);
     const SectionForce steady = polar(bounded);
     const double chordwise = steady.lift * std::sin(bounded) - (steady.drag - drag_0) * std::cos(bounded);
     const double lost = slope / beta * (bounded - zero_lift) * std::tan(bounded) - chordwise;

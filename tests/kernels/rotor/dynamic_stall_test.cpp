@@ -140,3 +140,28 @@ TEST_CASE("a section without lift, and one beyond its range, has its polar", "[r
   const DynamicStallBeddoesLeishman::State s = section.stall.settled(0.2, 1.0, section);
   CHECK(section.stall.force(s, 1.2, 1.0, section).lift == section(1.2).lift);
 }
+
+TEST_CASE("where air swings to and fro through rest, forces are at most added mass and the polar's", "[rotor][fast]") {
+  const Section section;
+  const double chord = 5.0, along = 3.0, period = 30.0;  // [m], [m/s], [s]: the hub of a parked rotor in still air
+  for (const double across : {0.0, 0.02, 0.3}) {         // [m/s] to the chord
+    for (const double h : {0.05, 0.01, 0.001}) {
+      const auto flow = [&](double at) {
+        const double u = along * std::cos(2.0 * pi * at / period);
+        return std::pair(std::atan2(across, u), std::hypot(across, u));
+      };
+      DynamicStallBeddoesLeishman::State s = section.stall.settled(flow(0.0).first, 1.0, section);
+      double most = 0.0;  // [m3/s2]: force per span and density
+      for (double t = 0.0; t < 2.0 * period; t += h) {
+        const auto [attack, speed] = flow(t + h);
+        s = section.stall.advance(s, attack, 1.0, h, chord, speed, section);
+        const auto [next, faster] = flow(t + 2.0 * h);
+        const SectionForce f = section.stall.force(s, next, 1.0, section), still = section(next);
+        most = std::max(most, 0.5 * chord * faster * faster * std::hypot(f.lift - still.lift, f.drag - still.drag));
+      }
+      const double added = 0.25 * pi * chord * chord * along * 2.0 * pi / period;
+      CAPTURE(across, h, most, added);
+      CHECK(most < 2.0 * added);
+    }
+  }
+}
