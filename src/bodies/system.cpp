@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -85,6 +86,7 @@ struct System::Work {
   void gather(double t);
   void gather_forces(bool at_rest);
   bool accelerations(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u);
+  int body_without_mass();
   bool fail(StepReport::Trouble trouble, int body);
   bool positions(double t, const Eigen::VectorXd& x);
   StepReport open(BodiesState& state, double t, bool choose);
@@ -246,6 +248,19 @@ void System::Work::gather(double t) {
   mass.gather(t, motions, mechanism);
 }
 
+/// The body that moves most in the motion that has the least mass.
+int System::Work::body_without_mass() {
+  const Eigen::MatrixXd& tangent = mechanism.solved().tangent;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> masses(mass.condense(tangent));
+  if (masses.info() != Eigen::Success) return -1;
+  const Eigen::VectorXd motion = tangent * masses.eigenvectors().col(0);
+  int most = 0;
+  const auto share = [&](int b) { return motion.segment<6>(6 * Eigen::Index(b)).norm(); };
+  for (int b = 1; b < int(bodies.size()); ++b)
+    if (share(b) > share(most)) most = b;
+  return most;
+}
+
 /// Accelerations of the independent coordinates: B^T M B a = B^T (F - M bias).
 bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
   if (!positions(t, x)) return false;
@@ -259,7 +274,7 @@ bool System::Work::accelerations(double t, const Eigen::VectorXd& x, const Eigen
     if (!force.segment<6>(Eigen::Index(6 * b)).allFinite()) return fail(StepReport::Trouble::not_finite, int(b));
   if (mechanism.freedoms() == 0) return true;
   cholesky.compute(mass.condense(mechanism.solved().tangent));
-  if (cholesky.info() != Eigen::Success) return fail(StepReport::Trouble::mass, -1);
+  if (cholesky.info() != Eigen::Success) return fail(StepReport::Trouble::mass, body_without_mass());
   acceleration = condensed_force;
   cholesky.solveInPlace(acceleration);
   if (!acceleration.allFinite()) return fail(StepReport::Trouble::not_finite, -1);
@@ -567,7 +582,7 @@ std::string System::describe(const StepReport& r) const {
     case Trouble::not_finite:
       return body + ": a load or motion is not a finite number; the step is probably beyond its stability limit";
     case Trouble::mass:
-      return "mass plus added mass is not positive definite";
+      return body + ": mass plus added mass is not positive definite: look at its mass, inertia and added mass";
     case Trouble::stiff:
       return fmt::format(
           "bodies: loads or turns change faster than the step follows, {:.3g} s or so would: try a smaller time.step_s", r.value);

@@ -176,6 +176,16 @@ TEST_CASE("a load that is not a number stops the step, names the body and leaves
   CHECK(state.motions[1].position.x() == 1.0);
 }
 
+TEST_CASE("a body whose added mass takes more than it has is named", "[bodies][fast]") {
+  std::vector<Body> bodies{examples::body("good", 1, {1, 1, 1}, {0, 0, 0}), examples::body("bad", 1, {1, 2, 3}, {1, 0, 0})};
+  System system(bodies, {}, {{"water", {}, [](double t, auto, std::span<Matrix6> a) { a[1](4, 4) -= t > 0.5 ? 2.5 : 0.0; }}});
+  BodiesState state = examples::start(system);
+  examples::run(system, state, 0.1, 5);
+  const StepReport report = system.advance(state, 0.1, 1);
+  CHECK(report.trouble == StepReport::Trouble::mass);
+  CHECK_THAT(system.describe(report), Catch::Matchers::Contains("'bad': mass plus added mass"));
+}
+
 TEST_CASE("a load that is not a number is named on bodies that cannot move, too", "[bodies][fast]") {
   std::vector<Body> bodies{examples::body("held", 1, {1, 1, 1}, {0, 0, 0})};
   const std::vector<Joint> joints{examples::joint("foundation", JointType::fixed, earth, 0, {0, 0, 0}, {1, 0, 0})};
