@@ -65,6 +65,7 @@ double print_steps(FloatingSystem& floating, const coupling::Start& start) {
       cost.core_seconds(), cost.steps, 1e6 * cost.step_s,
       cost.exchanges > 0.0 ? fmt::format(", {:.3g} loads of the rotor of {:.3g} us", cost.exchanges, 1e6 * cost.exchange_s) : "",
       cost.rows, 1e6 * cost.row_s);
+  if (!cost.trouble.empty()) fmt::print("  warning: {}; a run tries it again in pieces\n", cost.trouble);
   return cost.core_seconds();
 }
 

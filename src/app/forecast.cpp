@@ -31,7 +31,8 @@ namespace {
 
 using coupling::FloatingSystem;
 
-/// Least processor time of one call, over blocks of calls that take about a tenth of a second together.
+/// Least processor time of one call, over blocks of calls that take about a tenth of a second together. A call that fails ends
+/// them, and has taken its time.
 template <class Call>
 double least_seconds(Call&& call) {
   constexpr int block = 10, most_blocks = 40;
@@ -40,10 +41,10 @@ double least_seconds(Call&& call) {
   for (int n = 0; n < most_blocks && processor_seconds() - begin < 0.1; ++n) {
     const double before = processor_seconds();
     int calls = 0;
-    while (calls < block && call()) ++calls;
-    if (calls == 0) return 0.0;
+    bool well = true;
+    while (calls < block && well) well = call(), ++calls;
     least = std::min(least, (processor_seconds() - before) / calls);
-    if (calls < block) break;
+    if (!well) break;
   }
   return least;
 }
@@ -53,8 +54,9 @@ template <class Call>
 double mean_seconds(Call&& call) {
   const double begin = processor_seconds();
   int calls = 0;
-  while (processor_seconds() - begin < 0.5 && call()) ++calls;
-  return calls > 0 ? (processor_seconds() - begin) / calls : 0.0;
+  bool well = true;
+  while (processor_seconds() - begin < 0.5 && well) well = call(), ++calls;
+  return (processor_seconds() - begin) / calls;
 }
 
 std::vector<std::string> names(const io::History& history) {
@@ -114,7 +116,13 @@ StepCost measured_steps(FloatingSystem& floating, const coupling::Start& start) 
   bodies::BodiesState state = start.state;
   floating.sources.reset_clocks();
   const std::int64_t begin_ns = runtime::Clock::now_ns();
-  const auto step = [&] { return floating.multibody().advance(state, t.tick_s(), 1).ok(); };
+  const auto step = [&] {
+    const bodies::StepReport report = floating.multibody().advance(state, t.tick_s(), 1);
+    if (!report.ok() && cost.trouble.empty())
+      cost.trouble = fmt::format("the step from t = {:.4g} s does not hold: {}", double(state.tick) * t.tick_s(),
+                                 floating.multibody().describe(report));
+    return report.ok();
+  };
   const double step_alone = least_seconds(step);
   cost.step_s = s.aero.dynamic_inflow == "free_vortex" ? mean_seconds(step) : step_alone;  // a wake has steps of its own
   if (exchanges(s)) {

@@ -21,6 +21,7 @@ namespace spindrift::app {
 struct StepCost {
   double steps = 0.0, exchanges = 0.0, rows = 0.0;
   double step_s = 0.0, exchange_s = 0.0, row_s = 0.0;  ///< of one, the fastest of a few: others on the computer only add
+  std::string trouble;                                 ///< empty, or which of the steps that were tried failed and why
   double core_seconds() const { return steps * step_s + exchanges * exchange_s + rows * row_s; }
 };
 StepCost measured_steps(coupling::FloatingSystem& floating, const coupling::Start& start);
