@@ -40,6 +40,27 @@ spacing_m = 0.05
 x_m = [-2.0, 2.0]
 top_m = 0.3
 """
+LONE = """
+[time]
+end_s = 3.0
+window_s = 0.01
+[environment]
+gravity_m_s2 = 9.81
+water_density_kg_m3 = 1000.0
+water_depth_m = 0.3
+[sea]
+model = "sph"
+[sea.particles]
+dimensions = "2"
+spacing_m = 0.015
+[sea.tank]
+x_m = [0.0, 6.0]
+top_m = 0.3
+bed_m = [[0.0, -0.3], [6.0, 0.0]]
+[[sea.water]]
+low_m = [4.5, -1.0, -0.3]
+high_m = [4.53, 1.0, -0.045]
+"""
 DRIVEN = """
 [joints.rail]
 type = "translational"
@@ -137,6 +158,17 @@ class Planar(Folder):
                                                    f"sea.sensors=[{patches}]", "time.end_s=0.1"])
         self.assertGreater(found["wall.fx_N"][-1], 100.0)
         self.assertAlmostEqual(found["paddle.fx_N"][-1] / -found["wall.fx_N"][-1], 1.0, delta=0.1)
+
+    def test_lone_water_on_a_wall_makes_no_energy(self):
+        """Particles that slide down a beach, with no water about them whose viscosity would calm them: they bounced ever higher."""
+        scene = self.path / "lone.toml"
+        scene.write_text(LONE)
+        done = spindrift("run", scene, "--out", self.path / "lone", "--quiet", "--no-report")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = columns(self.path / "lone/history.csv")
+        energy = sum(found[f"sea.{kind}_energy_J"] for kind in ("kinetic", "potential", "compression"))
+        self.assertLess((energy - energy[0]).max(), 0.02 * abs(energy[0]))
+        self.assertGreater(found["sea.dissipated_J"][-1], -0.02 * abs(energy[0]))
 
     def test_sound_is_twenty_times_the_speed_of_a_fall_on_a_rail_to_low_water(self):
         said = spindrift("check", SCENE.parents[1] / "cylinder_drop/cylinder_drop.toml",

@@ -34,7 +34,7 @@ struct Rates {
 template <int dim, class Real>
 void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_dt) {
   const Rates<dim> rates(p);
-  const double dt = 2.0 * half_dt;
+  const double dt = 2.0 * half_dt, courant = p.eos.c0 * dt / p.h();
   const bool dynamic_walls = p.boundary != BoundaryChoice::extrapolated;  // others are set after this
   const Group& range = store.groups[group];
   for (std::uint32_t cluster = range.fluid; cluster < range.end; ++cluster) {
@@ -52,7 +52,8 @@ void pack(Store<dim, Real>& store, const Parameters& p, int group, double half_d
       for (int lane = 0; lane < cluster_size; ++lane) {
         const bool filled = id[lane] != no_particle;
         const double at = StepSymplectic::half(x[lane], v[lane], advance) - anchor;
-        const double speed = StepSymplectic::half(v[lane], rates.acceleration(k, sums[k * cluster_size + lane]), advance);
+        const double speed =
+            StepSymplectic::velocity_half(v[lane], rates.acceleration(k, sums[k * cluster_size + lane]), advance, courant);
         const Real offset = Real(at);
         planes[k * cluster_size + lane] = filled ? offset : Real(empty_lane_offset_m);
         planes[(dim + k) * cluster_size + lane] = filled ? Real(advance > 0.0 ? speed : v[lane]) : Real(0);
