@@ -969,6 +969,12 @@ class PartsTest(unittest.TestCase):
             found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "left"))}["Water"]
             self.assertEqual(found.level, "good")
             self.assertIn("taken along by water that left 30.0", found.text)
+            gains = {"sea.kinetic_energy_J": 15.0 * t, "sea.dissipated_J": -6.0 * t, "sea.left_J": zero, "sea.absorbed_J": zero, "sea.mass_kg": 1e3 - t}
+            synthetic_run.write(pathlib.Path(folder) / "gains", table=table | gains, scene="", log="")
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder) / "gains"))}["Water"]
+            self.assertEqual(found.level, "warn")
+            self.assertIn("unexplained 0", found.text)
+            self.assertIn("forces at walls make energy; 1.0 % of the water left the tank", found.text)
 
     def test_health_closes_the_balance_of_the_mass_of_the_air(self):
         t = np.linspace(0.0, 10.0, 101)
