@@ -359,8 +359,10 @@ class Sea final : public ParticleSea {
     const auto kept = [](const Extent& e) { return e.kinetic_energy + e.potential_energy + e.compression_energy + e.dissipated; };
     double made = balance_->made * std::exp(-(sea_.time() - balance_->time_s) * p.eos.c0 / (memory * p.h()));
     if (now.mass == before.mass) made += kept(now) - kept(before) - worked + absorbed;  // water that leaves takes its own along
-    const double moves =
-        std::max({before.kinetic_energy, now.kinetic_energy, std::abs(worked), std::abs(absorbed), 0.1 * now.compression_energy});
+    const double little =
+        1e-4 * now.mass * p.gravity * p.spacing;  // of water at rest: what lifts it by a ten-thousandth of a row
+    const double moves = std::max(
+        {before.kinetic_energy, now.kinetic_energy, std::abs(worked), std::abs(absorbed), 0.1 * now.compression_energy, little});
     const double at_start = balance_->made;  // which no shorter steps of this window undo
     balance_ = Balance{now, sea_.time(), made}, between_windows_ = true;
     if (made <= 2.0 * most * moves && at_start <= most * moves) return;
