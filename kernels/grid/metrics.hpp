@@ -62,9 +62,9 @@ inline Eigen::Vector3d cell_centre(const Hexahedron& h) {
   return h.x[0] + sum / 8.0;
 }
 
-/// Weights of volumes in d(V Q)/dt = (a0 V Q + a1 (V Q)_old + a2 (V Q)_older) / dt with a0 + a1 + a2 = 0.
+/// Weights of volumes in d(V Q)/dt = (a0 V Q + a1 (V Q)_old + a2 (V Q)_older + a3 (V Q)_oldest) / dt with a sum of zero.
 struct TimeWeights {
-  double now = 1.0, old = -1.0, older = 0.0;
+  double now = 1.0, old = -1.0, older = 0.0, oldest = 0.0;
 };
 inline constexpr TimeWeights bdf1{1.0, -1.0, 0.0};
 /// Second-order backward difference; ratio = this step over the step before.
@@ -72,11 +72,26 @@ constexpr TimeWeights bdf2(double ratio = 1.0) {
   const double now = (1.0 + 2.0 * ratio) / (1.0 + ratio), older = ratio * ratio / (1.0 + ratio);
   return {now, -(now + older), older};
 }
+/// Third-order backward difference; ratios: this step over the step before, that one over the one before it. The derivative at
+/// the new level of the cubic through four levels (Hairer, Norsett & Wanner, Solving ODE I, III.5). Not A-stable: rates within 4
+/// degrees of the imaginary axis may grow (Hairer & Wanner II, V.2); steps that grow by more than 1.53 time after time are
+/// unstable too (I, theorem III.5.5).
+constexpr TimeWeights bdf3(double ratio = 1.0, double ratio_before = 1.0) {
+  const double second = 1.0 + 1.0 / ratio, third = second + 1.0 / (ratio * ratio_before);  // levels 1, second, third steps ago
+  const double older = third / (second * (second - 1.0) * (third - second)),
+               oldest = -second / (third * (third - 1.0) * (third - second));
+  const double now = 1.0 + 1.0 / second + 1.0 / third;
+  return {now, -(now + older + oldest), older, oldest};
+}
 
 /// Volume per time that a face sweeps [m3/s], so that a uniform state stays uniform under these weights: `swept` in this step,
 /// `swept_old` in the step before. Divided by the face's area it is the normal speed that fluxes use.
 constexpr double swept_rate(TimeWeights w, double swept, double swept_old, double dt) {
   return (w.now * swept - w.older * swept_old) / dt;
+}
+/// The same of third order; `swept_older` two steps before.
+constexpr double swept_rate(TimeWeights w, double swept, double swept_old, double swept_older, double dt) {
+  return (w.now * swept - (w.older + w.oldest) * swept_old - w.oldest * swept_older) / dt;
 }
 
 }  // namespace spindrift

@@ -63,8 +63,9 @@ void check_actuator(scene::Document& document, const AeroOptions& aero, const Ro
         if (const std::string why = why_outside(rotor, *box); !why.empty()) document.problem(hub_key, why);
     } catch (const scene::SceneError& e) { document.problem("rotor.turbine", e.what()); }
   if (aero.model == "actuator_line" && aero.flow && aero.flow->time == "steady")
-    document.problem("aero.flow.time",
-                     "must be \"bdf1\" or \"bdf2\": lines turn; aero.model \"actuator_disc\" has the steady flow of their mean");
+    document.problem(
+        "aero.flow.time",
+        "must be \"bdf1\", \"bdf2\" or \"bdf3\": lines turn; aero.model \"actuator_disc\" has the steady flow of their mean");
   if (aero.flow && aero.flow->motion)
     document.problem("aero.flow.motion", "has no effect: the grid stands, the rotor goes through it");
 }

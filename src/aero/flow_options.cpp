@@ -114,7 +114,10 @@ const scene::Section<FlowOptions>& flow_section() {
           .choice("time", &FlowOptions::time,
                   {{"steady", "one march to the steady state; a window is at most one pseudo-step, its length a count"},
                    {"bdf1", "first order, a step per window"},
-                   {"bdf2", "second order, a step per window"}},
+                   {"bdf2", "second order, a step per window"},
+                   {"bdf3",
+                    "third order, a step per window, after one of first and one of second order; keeps a step more. Not A-stable "
+                    "but A(86 degrees): what swings with little damping in less than some twenty steps a period may grow"}},
                   "Time integration. Default: \"bdf2\" where bodies carry a resolved rotor.")
           .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step. Default: 2 of a resolved rotor.",
                   above(0.0).up_to(1e6))
@@ -132,7 +135,7 @@ const scene::Section<FlowOptions>& flow_section() {
                   "Share of a run's windows that may spend max_pseudo_steps without the drop; with more the run ends with exit "
                   "code 3.",
                   between(0.0, 1.0))
-          .only_if("time", {"bdf1", "bdf2"})
+          .only_if("time", {"bdf1", "bdf2", "bdf3"})
           .number("residual_kg_m3_s", &FlowOptions::residual_kg_m3_s, "kg/(m3 s)",
                   "Density residual (as flow.density_residual) that ends a march whatever its drop; 0: not looked at.",
                   between(0.0, 1e6))
@@ -144,7 +147,7 @@ const scene::Section<FlowOptions>& flow_section() {
               between(0.0, 1.0))
           .integer("max_pseudo_steps", &FlowOptions::max_pseudo_steps, "-", "Most pseudo-steps of a physical step.",
                    between(1, 1e6))
-          .only_if("time", {"bdf1", "bdf2"})
+          .only_if("time", {"bdf1", "bdf2", "bdf3"})
           .integer(
               "coarse_steps", &FlowOptions::coarse_steps, "-",
               "Most pseudo-steps on each coarser grid, whose flow a steady march then begins with: of half the resolution of "
@@ -195,7 +198,7 @@ const scene::Section<FlowOptions>& flow_section() {
                    "step, whatever the restarts. "
                    "Above 1 it needs common_every of at least max_pseudo_steps (or 1000).",
                    between(1, 1e6))
-          .only_if("time", {"bdf1", "bdf2"})
+          .only_if("time", {"bdf1", "bdf2", "bdf3"})
           .integer("refresh_every", &FlowOptions::refresh_every, "-",
                    "Pseudo-steps that a matrix of the preconditioner serves where products are matrix-free; less where the CFL "
                    "number changes by "
@@ -261,6 +264,9 @@ const scene::Section<FlowOptions>& flow_section() {
   return section;
 }
 
+int time_order(const FlowMarchOptions& o) { return o.time == "steady" ? 0 : o.time.back() - '0'; }
+int past_levels(const FlowMarchOptions& o) { return time_order(o) + (time_order(o) > 1 && o.time_tolerance ? 1 : 0); }
+
 FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vector3d& wind, double dt,
                          const WindProfile& profile) {
   FlowSetting s;
@@ -280,7 +286,8 @@ FlowSetting flow_setting(const FlowOptions& o, double density, const Eigen::Vect
   s.wind_eddy_viscosity = o.wind_eddy_viscosity, s.wind_intensity = o.wind_intensity;
   s.preconditioned = o.low_mach;
   s.physical_far_field = o.physical_far_field;
-  s.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
+  s.time_order = time_order(o);
+  if (s.time_order > 1) s.time_tolerance = o.time_tolerance;
   s.dt = s.time_order > 0 ? dt : 0.0;
   s.krylov = o.krylov;
   s.preconditioner = o.preconditioner == "auto" ? "block_ilu" : o.preconditioner;  // until chosen

@@ -63,6 +63,7 @@ struct FlowSchemes {
 /// Steps in physical and pseudo-time, and when enough of them are made.
 struct FlowMarchOptions {
   std::string time = "steady";
+  std::optional<double> time_tolerance;  ///< of the error in time of a step; unset: it is neither estimated nor held
   double cfl = 5.0, cfl_max = 1e4, drop = 1e-6, residual_kg_m3_s = 0.0;
   std::optional<double> load_change;  ///< unset: 1e-3 for a steady resolved rotor, else 0
   std::string drop_of = "balance";
@@ -97,6 +98,11 @@ double own_area(const FlowOptions& options);
 inline double reference_area(const FlowOptions& options) { return options.reference_area_m2.value_or(own_area(options)); }
 /// [m], of a planar grid that the program makes or reads.
 inline double planar_width(const FlowOptions& options) { return options.width_m.value_or(1.0); }
+
+/// 0: steady.
+int time_order(const FlowMarchOptions& options);
+/// States of steps before that a physical step needs.
+int past_levels(const FlowMarchOptions& options);
 
 const scene::Section<FlowOptions>& flow_section();
 

@@ -95,7 +95,7 @@ ResolvedRotor::ResolvedRotor(const ResolvedRotorSetup& setup, int ranks, int ran
   solver_ = std::make_unique<FlowSolver>(*store_, setting, std::move(conditions));
   solver_->gather_bands(rows_of_faces());
   solver_->judgement().bands_of_every_row = steady();
-  if (!steady()) place({turned(-1)}, {turned(0)});
+  if (!steady()) place({turned(-2)}, {turned(-1)}, {turned(0)});
 }
 
 std::unique_ptr<ResolvedRotor> ResolvedRotor::on(const runtime::World& world, const ResolvedRotorSetup& setup, int chunk,
@@ -164,15 +164,17 @@ std::vector<BlockPose> ResolvedRotor::block_poses(const RotorPlace& place) const
 
 void ResolvedRotor::move_to(const RotorPlace& end) {
   solver_->motion().move_to(block_poses(end));
-  before_ = std::exchange(now_, end);
+  long_before_ = std::exchange(before_, std::exchange(now_, end));
 }
 
-void ResolvedRotor::place(const RotorPlace& before, const RotorPlace& now) {
-  solver_->motion().place(block_poses(before), block_poses(now));
-  before_ = before, now_ = now;
+void ResolvedRotor::place(const RotorPlace& long_before, const RotorPlace& before, const RotorPlace& now) {
+  solver_->motion().place(block_poses(before), block_poses(now), block_poses(long_before));
+  long_before_ = long_before, before_ = before, now_ = now;
 }
 
-void ResolvedRotor::placed_at(std::int64_t step) { before_.pose = turned(step - 1), now_.pose = turned(step); }
+void ResolvedRotor::placed_at(std::int64_t step) {
+  long_before_.pose = turned(step - 2), before_.pose = turned(step - 1), now_.pose = turned(step);
+}
 
 // ---- loads
 
@@ -279,13 +281,14 @@ RotorLoad ResolvedRotor::advance(const RotorPlace& end) {
 }
 
 ResolvedRotor::Snapshot ResolvedRotor::snapshot() const {
-  return {.air = solver_->restart().snapshot(), .before = before_, .now = now_};
+  return {.air = solver_->restart().snapshot(), .long_before = long_before_, .before = before_, .now = now_};
 }
 
 void ResolvedRotor::restore(const Snapshot& s) {
   solver_->restart().restore(s.air);
-  before_ = s.before, now_ = s.now;
-  if (s.before.pitches_blades() || s.now.pitches_blades()) place(s.before, s.now);
+  long_before_ = s.long_before, before_ = s.before, now_ = s.now;
+  if (s.long_before.pitches_blades() || s.before.pitches_blades() || s.now.pitches_blades())
+    place(s.long_before, s.before, s.now);
 }
 
 }  // namespace spindrift::aero

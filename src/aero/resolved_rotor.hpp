@@ -76,11 +76,13 @@ class ResolvedRotor {
   /// At the end of the last step and at its beginning.
   const RotorPlace& now() const { return now_; }
   const RotorPlace& before() const { return before_; }
+  /// At the beginning of the step before the last one.
+  const RotorPlace& long_before() const { return long_before_; }
 
   /// Where the rotor is at the end of the next physical step.
   void move_to(const RotorPlace& end);
-  /// Its present pose and that of one step ago, without flow in between: starts away from the scene's own pose.
-  void place(const RotorPlace& before, const RotorPlace& now);
+  /// Its present pose and those of one step and two steps ago, without flow in between: starts away from the scene's own pose.
+  void place(const RotorPlace& long_before, const RotorPlace& before, const RotorPlace& now);
   /// Restarts: the solver has been placed by FlowRestart::load_march.
   void placed_at(std::int64_t step);
 
@@ -105,7 +107,7 @@ class ResolvedRotor {
   RotorLoad advance(const RotorPlace& end);
   struct Snapshot {
     FlowSnapshot air;
-    RotorPlace before, now;
+    RotorPlace long_before, before, now;
   };
   Snapshot snapshot() const;
   void restore(const Snapshot& from);
@@ -128,7 +130,7 @@ class ResolvedRotor {
   std::unique_ptr<FlowSolver> solver_;
   std::unique_ptr<runtime::Executor> march_;
   RotorPose start_;
-  RotorPlace before_, now_;
+  RotorPlace long_before_, before_, now_;
 };
 
 }  // namespace spindrift::aero

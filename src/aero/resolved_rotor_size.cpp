@@ -33,6 +33,7 @@ constexpr double viscous_seconds = 12e-6, inviscid_seconds = 7.5e-6, viscous_phy
 
 struct Kind {
   int unknowns = 5, turbulence = 0, time_order = 0, krylov_steps = 0;
+  int levels = 0;  ///< past ones of the flow
   bool flexible = false, eddies = false, planar = false;
   bool turns = true;    ///< faces have speeds: a rotor's grid, which turns with it
   bool moving = false;  ///< nodes have places of steps before
@@ -55,7 +56,7 @@ Kind kind_of(const FlowOptions& o) {
   kind.eddies = o.viscous != "none" && o.turbulence != "none";
   if (kind.eddies) kind.turbulence = model_sweeps(o.turbulence).equations;
   kind.unknowns += kind.turbulence;
-  kind.time_order = o.time == "bdf2" ? 2 : o.time == "bdf1" ? 1 : 0;
+  kind.time_order = time_order(o), kind.levels = past_levels(o);
   kind.tiles = tile_limits(o);
   kind.coarse = o.preconditioner == "coarse", kind.group_cells = o.group_cells, kind.direct_groups = o.direct_groups;
   kind.krylov_steps = o.krylov_steps, kind.flexible = o.krylov != KrylovMethod::gmres;
@@ -72,7 +73,7 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   const int directions = kind.planar ? 2 : 3;
   double bytes = wide * (2.0 * box(ni, nj, nk, state_ghosts, kind.unknowns) +
                          box(ni, nj, nk, gradient_ghosts, gradient_components(kind.turbulence, kind.eddies)) +
-                         (1 + kind.time_order) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
+                         (1 + kind.levels) * box(ni, nj, nk, 0, kind.unknowns) + box(ni, nj, nk, 0, 1));
   double matrix = double(MeanMatrix::size(cells, directions)), vectors = kind.krylov_steps + 1;
   if (kind.turbulence == 1) matrix += double(linear::StencilMatrix<1>::size(cells, directions));
   if (kind.turbulence == 2) matrix += double(linear::StencilMatrix<2>::size(cells, directions));
@@ -80,11 +81,14 @@ double tile_bytes(const Kind& kind, int ni, int nj, int nk) {
   if (kind.coarse)
     matrix += 25.0 * sizeof(linear::ShortFloat) / narrow * double(cells.count());  // blocks within a group, added up
   bytes += narrow * (matrix + box(ni, nj, nk, gradient_ghosts, kind.unknowns) + vectors * double(cells.count()) * kind.unknowns);
-  // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes.
-  bytes += wide * ((kind.moving ? 4 : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
+  // The grid: see store.hpp. Faces have a vector, speeds (also in a turning frame), and where nodes move two swept volumes; of
+  // third order a step more.
+  const int third = kind.moving && kind.time_order > 2 ? 1 : 0;
+  bytes += wide * ((kind.moving ? 4 + third : 1) * box(ni + 1, nj + 1, nk + 1, 0, 3) + box(ni, nj, nk, cell_ghosts, 1) +
                    box(ni, nj, nk, cell_ghosts, 3) + box(ni, nj, nk, 0, 1));
   for (int d = 0; d < 3; ++d)
-    bytes += wide * (3 + (kind.turns ? 1 : 0) + (kind.moving ? 2 : 0)) * box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
+    bytes += wide * (3 + (kind.turns ? 1 : 0) + (kind.moving ? 2 + third : 0)) *
+             box(ni + (d == 0), nj + (d == 1), nk + (d == 2), 0, 1);
   return bytes;
 }
 
@@ -163,7 +167,7 @@ ResolvedRotorSize resolved_rotor_size(const ResolvedRotorSetup& setup) {
   size.sectors = spec.whole ? turbine.blades : 1;
   size.cells = size.sectors * spec.sizes.cells() >> (3 * spec.coarsen);
   size.stations = spec.sizes.span >> spec.coarsen;
-  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
+  const double state = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.levels);
   Parts sector;
   for (const std::array<int, 3>& block : blocks_of_sector(spec)) sector += parts_of_block(kind, block);
   size.bytes_of_output = size.sectors * sector.output;
@@ -188,7 +192,7 @@ FlowSize flow_size(const FlowOptions& flow, const MultiBlockGrid& grid) {
   // The coarser grids that a steady march begins on are gone before the fine one's matrix is first written: they add nothing.
   size.bytes += parts.bytes, size.bytes_of_output = parts.output;
   add_coarse_level(size, kind, parts.groups);
-  size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.time_order);
+  size.bytes_of_checkpoint = sizeof(double) * double(size.cells) * kind.unknowns * (1 + kind.levels);
   size.core_seconds_per_pseudo_step = double(size.cells) * seconds_per_cell(flow) * (grid.planar ? planar_share : 1.0);
   return size;
 }

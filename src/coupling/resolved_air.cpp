@@ -122,7 +122,8 @@ class ResolvedAir final : public MarchingAir {
   void restore(const io::CheckpointReader& file) override {
     MarchingAir::restore(file);
     restored_dt_ = rotor_load_in(file).dt;
-    if (const std::optional<RotorPlaces> places = rotor_places_in(file)) rotor_->place(places->before, places->now);
+    if (const std::optional<RotorPlaces> places = rotor_places_in(file))
+      rotor_->place(places->long_before, places->before, places->now);
     tell_size();
   }
 
@@ -156,7 +157,7 @@ class ResolvedAir final : public MarchingAir {
   ComputedLoads computed() const override { return computed_loads(*rotor_); }
   std::vector<SavedArray> computed_arrays() const override {
     std::vector<SavedArray> arrays = rotor_arrays(*rotor_, loads_.computed, world_.rank);
-    if (is_pitched()) arrays.push_back(rotor_places_array({rotor_->before(), rotor_->now()}, world_.rank));
+    if (is_pitched()) arrays.push_back(rotor_places_array(*rotor_, world_.rank));
     return arrays;
   }
   std::vector<aero::SpanLoad> span_loads() const override { return rotor_->span_loads(); }
@@ -233,15 +234,19 @@ class ResolvedAir final : public MarchingAir {
     return held->solver().restart().save_tiles();
   }
 
-  /// The grid where the rotor is, with a last step of `dt` at its velocity, in which blades pitched as they did in the last one.
+  /// The grid where the rotor is, with last steps of `dt` at its velocity, in which blades pitched as they did in the last one.
   void place_at(const aero::RotorState& now, double dt) {
-    aero::RotorState before = now;
-    before.hub -= dt * now.hub_velocity, before.azimuth -= dt * now.speed;
     const std::vector<double> pitches = changes(now);
-    std::vector<double> pitches_before = pitches;
-    const std::vector<double>&was = rotor_->before().pitches, &is = rotor_->now().pitches;
-    for (std::size_t b = 0; b < std::min({pitches.size(), was.size(), is.size()}); ++b) pitches_before[b] -= is[b] - was[b];
-    rotor_->place({frame_.pose(before), pitches_before}, {frame_.pose(now), pitches});
+    const std::vector<double> was = rotor_->before().pitches, is = rotor_->now().pitches;
+    const auto steps_ago = [&](int steps) {
+      aero::RotorState then = now;
+      for (int n = 0; n < steps; ++n) then.hub -= dt * now.hub_velocity, then.azimuth -= dt * now.speed;
+      std::vector<double> pitched = pitches;
+      for (std::size_t b = 0; b < std::min({pitches.size(), was.size(), is.size()}); ++b)
+        for (int n = 0; n < steps; ++n) pitched[b] -= is[b] - was[b];
+      return aero::RotorPlace{frame_.pose(then), pitched};
+    };
+    rotor_->place(steps_ago(2), steps_ago(1), steps_ago(0));
   }
 
   void tell_size() {

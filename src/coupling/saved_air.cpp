@@ -153,9 +153,11 @@ SavedRotorLoad rotor_load_in(const io::CheckpointReader& file) {
   return {load_at(values.data()), values[load_numbers]};
 }
 
-SavedArray rotor_places_array(const RotorPlaces& places, int rank) {
+SavedArray rotor_places_array(const aero::ResolvedRotor& rotor, int rank) {
   std::vector<double> values;
-  for (const aero::RotorPlace* place : {&places.before, &places.now}) {
+  std::vector<const aero::RotorPlace*> places{&rotor.before(), &rotor.now()};
+  if (rotor.solver().setting().time_order > 2) places.push_back(&rotor.long_before());
+  for (const aero::RotorPlace* place : places) {
     const aero::RotorPose& p = place->pose;
     const Eigen::Vector4d q = p.hub.attitude.coeffs();
     values.insert(values.end(), p.hub.position.data(), p.hub.position.data() + 3);
@@ -172,7 +174,11 @@ std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file) {
   const std::vector<double> values = file.read<double>(places_name);
   const double* from = values.data();
   RotorPlaces places;
-  for (aero::RotorPlace* place : {&places.before, &places.now}) {
+  for (aero::RotorPlace* place : {&places.before, &places.now, &places.long_before}) {
+    if (from == values.data() + values.size()) {
+      *place = places.before;
+      continue;
+    }
     place->pose.hub.position = Eigen::Map<const Eigen::Vector3d>(from);
     place->pose.hub.attitude.coeffs() = Eigen::Map<const Eigen::Vector4d>(from + 3);
     place->pose.azimuth = from[7], place->pose.speed = from[8];

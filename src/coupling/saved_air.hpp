@@ -38,11 +38,12 @@ struct SavedRotorLoad {
 SavedArray rotor_load_array(const SavedRotorLoad& saved, int rank);
 SavedRotorLoad rotor_load_in(const io::CheckpointReader& file);
 
-/// Where a rotor with blades that pitch was at the beginning and at the end of its last step: what TileMotion does not keep.
+/// Where a rotor with blades that pitch was at the beginning and at the end of its last step, and where time is of third order
+/// (else as `before`) a step earlier: what TileMotion does not keep.
 struct RotorPlaces {
-  aero::RotorPlace before, now;
+  aero::RotorPlace long_before, before, now;
 };
-SavedArray rotor_places_array(const RotorPlaces& places, int rank);
+SavedArray rotor_places_array(const aero::ResolvedRotor& rotor, int rank);
 /// Nothing where no blade could pitch.
 std::optional<RotorPlaces> rotor_places_in(const io::CheckpointReader& file);
 

@@ -365,7 +365,7 @@ void check_control_of_air(scene::Document& document, const Scenario& s) {
 /// Rules between resolved air and the bodies that carry its rotor.
 void check_resolved_air(scene::Document& document, const Scenario& s) {
   if (s.aero.flow->time == "steady")
-    document.problem("aero.flow.time", "must be \"bdf1\" or \"bdf2\" where bodies carry the rotor: it moves with them");
+    document.problem("aero.flow.time", "must be \"bdf1\", \"bdf2\" or \"bdf3\" where bodies carry the rotor: it moves with them");
   if (s.coupling.scheme == SchemeKind::monolithic)
     document.problem("coupling.scheme", "must not be \"monolithic\": resolved air answers once per window; take \"cps2\"");
   if (s.has_actuator()) return check_carried_actuator(document, s);

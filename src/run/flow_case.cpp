@@ -210,7 +210,8 @@ void FlowCase::follow_walls(const aero::FlowOptions& o) {
 }
 
 void FlowCase::place(std::int64_t window, double window_s) {
-  solver_->motion().place(motion_->poses(double(window - 1) * window_s), motion_->poses(double(window) * window_s));
+  const auto poses = [&](std::int64_t at) { return motion_->poses(double(at) * window_s); };
+  solver_->motion().place(poses(window - 1), poses(window), poses(window - 2));
 }
 
 void FlowCase::move(std::int64_t window, double window_s) {

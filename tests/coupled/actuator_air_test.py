@@ -201,7 +201,7 @@ class ActuatorAir(Runs):
 
     def test_what_cannot_be_is_refused(self):
         for settings, key, why in (
-            (["aero.flow.time=steady"], "aero.flow.time", 'must be "bdf1" or "bdf2"'),
+            (["aero.flow.time=steady"], "aero.flow.time", 'must be "bdf1", "bdf2" or "bdf3"'),
             (["coupling.scheme=monolithic"], "coupling.scheme", 'must not be "monolithic"'),
             ([f"start.air={ROOT}/README.md"], "start.air", "takes the air of a blade-resolved rotor"),
             (["wind.turbulence={model='kaimal', inflow_plane_m=500}"], "wind.turbulence.inflow_plane_m", "out of the grid"),

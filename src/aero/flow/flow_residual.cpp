@@ -75,7 +75,7 @@ void FlowResidual::keep_past(FlowTile& tile) const {
     step.begin_step();
     store_driving(tile, step);
   }
-  if (time_.order > 1) std::swap(tile.before, tile.before_that);
+  for (int n = time_.levels - 1; n > 0; --n) std::swap(tile.past[std::size_t(n)], tile.past[std::size_t(n - 1)]);
   const TileGeometry& g = *tile.geometry;
   const std::size_t component = std::size_t(tile.cells.component);
   for_rows(tile.box, [&](int k, int j) {
@@ -83,10 +83,10 @@ void FlowResidual::keep_past(FlowTile& tile) const {
       const std::ptrdiff_t from = tile.cells.at(k, j, i), to = tile.inner.at(k, j, i);
       const auto w = gas::conserved(gas_, gas::load_primitive<double>(tile.state.data() + from, component));
       const double v = g.volume_data.data()[g.cell_box.at(k, j, i)];  // a moving grid has not moved yet
-      gas::store_conserved(tile.before.data() + to, std::size_t(tile.inner.component), v * w);
+      gas::store_conserved(tile.past[0].data() + to, std::size_t(tile.inner.component), v * w);
       for (int t = 0; t < tile.turbulence; ++t) {
         const int c = mean_unknowns + t;
-        tile.before.data()[to + c * tile.inner.component] = v * w.rho * tile.state.data()[from + c * tile.cells.component];
+        tile.past[0].data()[to + c * tile.inner.component] = v * w.rho * tile.state.data()[from + c * tile.cells.component];
       }
     }
   });
@@ -97,8 +97,8 @@ void FlowResidual::keep_past(FlowTile& tile) const {
 /// on the inflow plane come in addition.
 void FlowResidual::store_driving(FlowTile& tile, const PhysicalTime& step) const {
   if (boundary_.wind.steady()) return;
-  const double shares[3] = {step.weights.now / step.dt, step.weights.old / step.dt, step.weights.older / step.dt},
-               ago[3] = {0.0, step.dt, step.older};
+  const TimeWeights& w = step.weights;
+  const double shares[4] = {w.now / step.dt, w.old / step.dt, w.older / step.dt, w.oldest / step.dt};
   const TileGeometry& g = *tile.geometry;
   const std::ptrdiff_t c = tile.inner.component;
   if (tile.driving.size() == 0) tile.driving = AlignedArray<double>(tile.inner.size(4));
@@ -109,9 +109,9 @@ void FlowResidual::store_driving(FlowTile& tile, const PhysicalTime& step) const
       const Eigen::Vector3d now = boundary_.wind.velocity(x, 0.0);
       Eigen::Vector3d acceleration = shares[0] * now;
       double power = 0.5 * shares[0] * now.squaredNorm();
-      for (int n = 1; n < 3; ++n)
+      for (std::size_t n = 1; n < 4; ++n)
         if (shares[n] != 0.0) {
-          const Eigen::Vector3d u = boundary_.wind.velocity(x, ago[n]);
+          const Eigen::Vector3d u = boundary_.wind.velocity(x, step.ago[n - 1]);
           acceleration += shares[n] * u, power += 0.5 * shares[n] * u.squaredNorm();
         }
       power -= now.dot(acceleration);
@@ -199,7 +199,8 @@ void FlowResidual::add_turning(const FlowTile& tile, const double* state, double
 
 void FlowResidual::add_time_derivative(const FlowTile& tile, const double* state, double* residual) const {
   const TileGeometry& g = *tile.geometry;
-  const double now = time_.weights.now / time_.dt, old = time_.weights.old / time_.dt, older = time_.weights.older / time_.dt;
+  const double now = time_.weights.now / time_.dt, old = time_.weights.old / time_.dt, older = time_.weights.older / time_.dt,
+               oldest = time_.weights.oldest / time_.dt;
   const std::ptrdiff_t c = tile.inner.component;
   for_rows(tile.box, [&](int k, int j) {
     for (int i = 0; i < tile.box.ni; i += row_lanes) {
@@ -209,8 +210,9 @@ void FlowResidual::add_time_derivative(const FlowTile& tile, const double* state
       const std::ptrdiff_t place = tile.inner.at(k, j, i);
       const auto add = [&](int n, const Row& amount) {
         double* to = residual + place + n * c;
-        Row sum = Row::load(to) + v * amount + Row(old) * Row::load(tile.before.data() + place + n * c);
-        if (older != 0.0) sum += Row(older) * Row::load(tile.before_that.data() + place + n * c);
+        Row sum = Row::load(to) + v * amount + Row(old) * Row::load(tile.past[0].data() + place + n * c);
+        if (older != 0.0) sum += Row(older) * Row::load(tile.past[1].data() + place + n * c);
+        if (oldest != 0.0) sum += Row(oldest) * Row::load(tile.past[2].data() + place + n * c);
         sum.store(to);
       };
       add(0, w.rho), add(1, w.mx), add(2, w.my), add(3, w.mz), add(4, w.E);

@@ -9,7 +9,7 @@ namespace spindrift::aero {
 
 namespace {
 template <class Tile, class Body>
-void for_saved(Tile& t, int time_order, Body&& body) {
+void for_saved(Tile& t, int levels, Body&& body) {
   const auto walk = [&](auto& array, const BoxLayout& layout) {
     for (int c = 0; c < t.unknowns(); ++c)
       for_rows(t.box, [&](int k, int j) {
@@ -17,24 +17,23 @@ void for_saved(Tile& t, int time_order, Body&& body) {
       });
   };
   walk(t.state, t.cells);
-  if (time_order > 0) walk(t.before, t.inner);
-  if (time_order > 1) walk(t.before_that, t.inner);
+  for (int n = 0; n < levels; ++n) walk(t.past[std::size_t(n)], t.inner);
 }
 }  // namespace
 
 std::size_t FlowRestart::size(int owned) const {
   const FlowTile& t = arrays_.tiles[std::size_t(owned)];
-  return std::size_t(t.box.count()) * std::size_t(t.unknowns()) * std::size_t(1 + time_.order);
+  return std::size_t(t.box.count()) * std::size_t(t.unknowns()) * std::size_t(1 + time_.levels);
 }
 
 void FlowRestart::save(int owned, std::span<double> to) const {
   std::size_t n = 0;
-  for_saved(arrays_.tiles[std::size_t(owned)], time_.order, [&](const double& value) { to[n++] = value; });
+  for_saved(arrays_.tiles[std::size_t(owned)], time_.levels, [&](const double& value) { to[n++] = value; });
 }
 
 void FlowRestart::load(int owned, std::span<const double> from) {
   std::size_t n = 0;
-  for_saved(arrays_.tiles[std::size_t(owned)], time_.order, [&](double& value) { value = from[n++]; });
+  for_saved(arrays_.tiles[std::size_t(owned)], time_.levels, [&](double& value) { value = from[n++]; });
 }
 
 SetUpNote FlowRestart::save_set_up() const {
@@ -56,7 +55,8 @@ void FlowRestart::load_set_up(const SetUpNote& from) {
 
 std::vector<double> FlowRestart::save_march() const {
   std::vector<double> all = march_.save();
-  all.insert(all.end(), {double(time_.steps), time_.before});
+  all.push_back(double(time_.steps));
+  all.insert(all.end(), time_.before.begin(), time_.before.begin() + time_.lengths());
   if (motion_.moves()) motion_.save(all);
   return all;
 }
@@ -65,8 +65,9 @@ void FlowRestart::load_march(std::span<const double> from) {
   march_.load(from);
   from = from.subspan(march_.save().size());
   time_.steps = std::int64_t(from[0]);
-  time_.before = from[1];
-  if (motion_.moves()) motion_.load(from.subspan(2));
+  from = from.subspan(1);
+  std::copy_n(from.begin(), time_.lengths(), time_.before.begin());
+  if (motion_.moves()) motion_.load(from.subspan(std::size_t(time_.lengths())));
 }
 
 TileStates FlowRestart::save_tiles() const {

@@ -42,13 +42,17 @@ struct FlowSetting {
   MarchOptions march;
   KrylovMethod krylov = KrylovMethod::gmres;
   std::string preconditioner = "block_ilu";
-  PreconditionerOptions coarse;  ///< of preconditioners that have a coarse level
-  int time_order = 0;            ///< 0 steady, 1 BDF1, 2 BDF2
-  double dt = 0.0;               ///< physical step [s]
+  PreconditionerOptions coarse;          ///< of preconditioners that have a coarse level
+  int time_order = 0;                    ///< 0 steady, 1 BDF1, 2 BDF2, 3 BDF3
+  double dt = 0.0;                       ///< physical step [s]
+  std::optional<double> time_tolerance;  ///< TimeControl holds the error in time of a step to it; unset: no estimate is made
   double held_rate = 0.0;  ///< steady flow: added to the matrix as a physical step of this rate would [1/s]; trials (choice.hpp)
   /// Steady flow in a frame that turns about an axis through `centre` along the stream: velocities stay those in space,
   /// their components turn with the frame. Blades are at rest in the grid.
   Eigen::Vector3d frame_omega = Eigen::Vector3d::Zero(), frame_centre = Eigen::Vector3d::Zero();  ///< [rad/s], [m]
+
+  /// Past levels of the flow that a physical step needs.
+  int past_levels() const { return time_order + (time_tolerance ? 1 : 0); }
 };
 
 }  // namespace spindrift::aero

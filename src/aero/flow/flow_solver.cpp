@@ -11,7 +11,7 @@ namespace spindrift::aero {
 
 FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<PatchCondition> conditions)
     : setting_(setting),
-      time_{.order = setting.time_order, .dt = setting.dt},
+      time_{.order = setting.time_order, .levels = setting.past_levels(), .dt = setting.dt},
       residual_(setting, model_sweeps(setting.turbulence), time_),
       arrays_(grid, setting, conditions, residual_.model()),
       motion_(arrays_, time_),
@@ -50,7 +50,7 @@ void FlowSolver::start_from(const FlowSolver& other) {
 void FlowSolver::set_time_step(double dt, std::optional<double> before) {
   setting_.dt = time_.dt = dt;
   residual_.set_dt(dt);
-  if (before) time_.before = *before;
+  if (before) time_.before.fill(*before);
 }
 
 void FlowSolver::record(runtime::Graph& graph) {

@@ -73,7 +73,7 @@ class FlowSolver {
   /// What recorded graphs refer to is freed: their executors are gone.
   void forget_graphs() { recorded_ = {}; }
 
-  /// Length of the next physical step and, where it is not that of the last one made, of the one before it [s].
+  /// Length of the next physical step and, where it is not that of the last one made, of those before it [s].
   void set_time_step(double dt, std::optional<double> before = {});
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_.steps; }

@@ -12,6 +12,7 @@
 #include "kernels/linear/stencil_matrix.hpp"
 #include "kernels/turbulence/wall_law.hpp"
 #include "src/aero/flow/condition.hpp"
+#include "src/aero/flow/physical_time.hpp"
 #include "src/aero/grid/aligned.hpp"
 #include "src/aero/grid/store.hpp"
 #include "src/aero/grid/tiling.hpp"
@@ -64,7 +65,7 @@ struct FlowTile {
   AlignedArray<double> trial;  ///< perturbed state of matrix-free products; between pseudo-steps the state before the last one
   AlignedArray<double> gradients;  ///< 3 each of u v w T and the turbulence unknowns, then closures
   AlignedArray<double> residual;
-  AlignedArray<double> before, before_that;  ///< conserved times volume one and two steps ago
+  std::array<AlignedArray<double>, most_levels> past;  ///< conserved times volume one, two ... steps ago, as many as time needs
   AlignedArray<double> source;  ///< added to the rate of change of conserved amounts per volume; empty but under body forces and
                                 ///< in manufactured solutions
   AlignedArray<double>

@@ -39,15 +39,17 @@ MassBalance mass_balance(const FlowTile& tile, const gas::IdealGas& gas, const P
     sum.residual += left;
   });
   if (!time.unsteady()) return sum;
-  const double now = time.weights.now / time.dt, old = time.weights.old / time.dt, older = time.weights.older / time.dt;
+  const double now = time.weights.now / time.dt, old = time.weights.old / time.dt, older = time.weights.older / time.dt,
+               oldest = time.weights.oldest / time.dt;
   const TileGeometry& g = *tile.geometry;
   for_rows(tile.box, [&](int k, int j) {
     double gained = 0.0;
     for (int i = 0; i < tile.box.ni; ++i) {
       const auto q = gas::load_primitive<double>(tile.state.data() + tile.cells.at(k, j, i), std::size_t(tile.cells.component));
       const std::ptrdiff_t place = tile.inner.at(k, j, i);
-      gained += now * g.volume_data.data()[g.cell_box.at(k, j, i)] * gas::density(gas, q) + old * tile.before.data()[place];
-      if (older != 0.0) gained += older * tile.before_that.data()[place];
+      gained += now * g.volume_data.data()[g.cell_box.at(k, j, i)] * gas::density(gas, q) + old * tile.past[0].data()[place];
+      if (older != 0.0) gained += older * tile.past[1].data()[place];
+      if (oldest != 0.0) gained += oldest * tile.past[2].data()[place];
     }
     sum.growth += gained;
   });

@@ -2,26 +2,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "src/aero/grid/store.hpp"
 
 namespace spindrift::aero {
 
+/// Most past levels that are kept.
+inline constexpr int most_levels = 4;
+
 struct PhysicalTime {
-  int order = 0;                  ///< 0 steady, 1 BDF1, 2 BDF2
-  double dt = 0.0, before = 0.0;  ///< length of this step, and of the one before it [s]
-  double older = 0.0;             ///< from the level before the last one to the end of the step that is being made [s]
-  std::int64_t steps = 0;         ///< since the start
-  TimeWeights weights{};          ///< of the step that is being made
+  int order = 0;                             ///< 0 steady, 1 BDF1, 2 BDF2, 3 BDF3
+  int levels = 0;                            ///< past ones that are kept
+  double dt = 0.0;                           ///< length of this step [s]
+  std::array<double, most_levels> before{};  ///< of those before it, the last one first [s]
+  std::array<double, most_levels> ago{};     ///< from the past levels to the end of the step that is being made [s]
+  std::int64_t steps = 0;                    ///< since the start
+  TimeWeights weights{};                     ///< of the step that is being made
 
   bool unsteady() const { return order > 0; }
+  /// Past levels that the step that is being made has.
+  int past() const { return int(std::min<std::int64_t>(levels, steps)); }
+  /// Lengths of steps that the next one needs.
+  int lengths() const { return std::max(1, levels - 1); }
   /// A step begins: weights by how much past there is.
   void begin_step() {
-    const bool second = order > 1 && steps > 0;
-    weights = second ? bdf2(dt / before) : bdf1;
-    older = dt + before;
-    before = dt;
+    const int reach = int(std::min<std::int64_t>(order, steps + 1));
+    weights = reach > 2 ? bdf3(dt / before[0], before[0] / before[1]) : reach > 1 ? bdf2(dt / before[0]) : bdf1;
+    ago[0] = dt;
+    for (std::size_t n = 1; n < ago.size(); ++n) ago[n] = ago[n - 1] + before[n - 1];
+    std::copy_backward(before.begin(), before.end() - 1, before.end());
+    before[0] = dt;
     ++steps;
   }
 };

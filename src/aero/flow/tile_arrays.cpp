@@ -14,8 +14,8 @@ namespace spindrift::aero {
 
 std::size_t FlowTile::bytes() const {
   std::size_t sum = state.bytes() + trial.bytes() + source.bytes() + driving.bytes() + gradients.bytes() + residual.bytes() +
-                    before.bytes() + before_that.bytes() + rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() +
-                    direction.bytes();
+                    rate.bytes() + mean_matrix.bytes() + turbulence_matrix.bytes() + direction.bytes();
+  for (const auto& v : past) sum += v.bytes();
   for (const auto& v : vectors) sum += v.bytes();
   for (const auto& v : directions_kept) sum += v.bytes();
   for (const SideFaces& side : sides) sum += side.open.bytes() + side.law.bytes() + side.through.bytes();
@@ -39,6 +39,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
     t.geometry = &grid[index];
     t.index = index;
     if (!setting.frame_omega.isZero()) turn_frame(*t.geometry, setting.frame_omega, setting.frame_centre, tiling.planar);
+    if (setting.time_order > 2 && t.geometry->history) keep_third_step(*t.geometry);
     t.directions = tiling.planar ? 2 : 3;
     t.along_wall = from.along_wall, t.ends_along_wall = from.ends_along_wall;
     t.turbulence = model.equations;
@@ -64,8 +65,7 @@ TileArrays::TileArrays(GridStore& store, const FlowSetting& setting, std::span<c
     t.gradients = AlignedArray<double>(t.gradient_box.size(gradient_components(t.turbulence, t.eddies)));
     t.residual = AlignedArray<double>(t.inner.size(unknowns));
     t.rate = AlignedArray<double>(t.inner.size(1));
-    if (setting.time_order > 0) t.before = AlignedArray<double>(t.inner.size(unknowns));
-    if (setting.time_order > 1) t.before_that = AlignedArray<double>(t.inner.size(unknowns));
+    for (int n = 0; n < setting.past_levels(); ++n) t.past[std::size_t(n)] = AlignedArray<double>(t.inner.size(unknowns));
     t.mean_matrix = AlignedArray<float>(MeanMatrix::size(t.box, t.directions));
     if (t.turbulence == 1) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<1>::size(t.box, t.directions));
     if (t.turbulence == 2) t.turbulence_matrix = AlignedArray<float>(linear::StencilMatrix<2>::size(t.box, t.directions));

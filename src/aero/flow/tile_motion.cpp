@@ -84,17 +84,20 @@ bool alike(const std::vector<RigidMap>& a, const std::vector<RigidMap>& b) {
 }
 }  // namespace
 
-void TileMotion::place(std::vector<BlockPose> before, std::vector<BlockPose> now) {
+void TileMotion::place(std::vector<BlockPose> before, std::vector<BlockPose> now, std::vector<BlockPose> long_before) {
+  const bool third = time_.order > 2;
+  if (long_before.empty()) long_before = before;
   // A motion about the axis of the period leaves the maps as they are but for round-off: those of the first place stay, so that
   // a restart, which places the grid somewhere else, has their bits.
   if (std::vector<RigidMap> maps = moved_maps(arrays_.grid.tiling().periodic, now[0].map); !alike(maps, periodic_))
     periodic_ = std::move(maps);
-  check(before), check(now);
+  check(before), check(now), check(long_before);
   const bool planar = arrays_.planar();
   for (FlowTile& tile : arrays_.tiles) {
     TileGeometry& g = *tile.geometry;
-    set_nodes(g, arrays_.of(tile), pose(before, tile));
+    set_nodes(g, arrays_.of(tile), pose(third ? long_before : before, tile));
     aero::begin_step(g);  // nothing was swept up to here
+    if (third) set_nodes(g, arrays_.of(tile), pose(before, tile));
     update_metrics(g, planar);
     update_sweeps(g, planar);
     aero::begin_step(g);
@@ -102,7 +105,9 @@ void TileMotion::place(std::vector<BlockPose> before, std::vector<BlockPose> now
     update_metrics(g, planar);
     update_sweeps(g, planar);
     g.history->over_step = change(pose(before, tile).map, pose(now, tile).map);
+    if (third) g.history->over_step_before = change(pose(long_before, tile).map, pose(before, tile).map);
   }
+  if (third) long_before_ = std::move(long_before);
   before_ = std::move(before);
   now_ = next_ = std::move(now);
   arrays_.grid.fill_local_geometry(periodic_);
@@ -117,16 +122,27 @@ void TileMotion::move(FlowTile& tile) const {
   update_sweeps(g, planar);
   update_speeds(g, time_.weights, time_.dt, planar);
   // As face speeds: of this step and the one before it, second order at the new time level.
+  const TimeWeights& w = time_.weights;
   const RigidRate now = change(pose(before_, tile).map, pose(now_, tile).map), old = std::exchange(g.history->over_step, now);
-  g.rate.velocity = (time_.weights.now * now.velocity - time_.weights.older * old.velocity) / time_.dt;
-  g.rate.omega = (time_.weights.now * now.omega - time_.weights.older * old.omega) / time_.dt;
+  if (time_.order > 2) {
+    const RigidRate older = std::exchange(g.history->over_step_before, old);
+    g.rate.velocity = (w.now * now.velocity - (w.older + w.oldest) * old.velocity - w.oldest * older.velocity) / time_.dt;
+    g.rate.omega = (w.now * now.omega - (w.older + w.oldest) * old.omega - w.oldest * older.omega) / time_.dt;
+  } else {
+    g.rate.velocity = (w.now * now.velocity - w.older * old.velocity) / time_.dt;
+    g.rate.omega = (w.now * now.omega - w.older * old.omega) / time_.dt;
+  }
   fill_boundary_geometry(g, arrays_.grid.tiling().boundary(tile.index));
 }
 
-void TileMotion::begin_step() { before_ = std::exchange(now_, next_); }
+void TileMotion::begin_step() {
+  std::vector<BlockPose> before = std::exchange(before_, std::exchange(now_, next_));
+  if (time_.order > 2) long_before_ = std::move(before);
+}
 
 void TileMotion::save(std::vector<double>& to) const {
   to.push_back(double(before_.size()));
+  if (time_.order > 2) to.push_back(double(now_.size()));
   const auto add = [&](const RigidMap& map) {
     to.insert(to.end(), map.rotation.data(), map.rotation.data() + 9);
     to.insert(to.end(), map.translation.data(), map.translation.data() + 3);
@@ -134,12 +150,15 @@ void TileMotion::save(std::vector<double>& to) const {
   for (const RigidMap& map : periodic_) add(map);
   for (const auto* poses : {&before_, &now_})
     for (const BlockPose& p : *poses) add(p.map);
+  if (time_.order > 2)
+    for (const BlockPose& p : long_before_) add(p.map);
 }
 
 void TileMotion::load(std::span<const double> from) {
   constexpr std::size_t numbers = 12;
-  const auto first = std::ptrdiff_t(from[0]);
-  from = from.subspan(1);
+  const bool third = time_.order > 2;
+  const auto first = std::ptrdiff_t(from[0]), last = third ? std::ptrdiff_t(from[1]) : 0;
+  from = from.subspan(third ? 2 : 1);
   const auto next = [&from] {
     RigidMap map;
     map.rotation = Eigen::Map<const Eigen::Matrix3d>(from.data());
@@ -151,7 +170,8 @@ void TileMotion::load(std::span<const double> from) {
   for (RigidMap& map : periodic_) map = next();
   std::vector<BlockPose> all;
   while (!from.empty()) all.push_back({.map = next(), .shape = {}});
-  place({all.begin(), all.begin() + first}, {all.begin() + first, all.end()});
+  const auto now = all.begin() + first, end = third ? now + last : all.end();
+  place({all.begin(), now}, {now, end}, {end, all.end()});
 }
 
 }  // namespace spindrift::aero

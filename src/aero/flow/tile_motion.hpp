@@ -35,8 +35,9 @@ class TileMotion {
   /// step without it leaves the grid where it is. Throws std::invalid_argument where the grid cannot move so.
   void move_to(std::vector<BlockPose> poses);
   /// Puts the blocks where the last step left them and, one step before it, `before`: starts and restarts away from the nodes as
-  /// made. What save() keeps of rigid poses is placed by load(); of shapes it keeps nothing, place them after it.
-  void place(std::vector<BlockPose> before, std::vector<BlockPose> now);
+  /// made. Two steps before it, which third order asks for, `long_before`; none: the grid stood still until `before`.
+  /// What save() keeps of rigid poses is placed by load(); of shapes it keeps nothing, place them after it.
+  void place(std::vector<BlockPose> before, std::vector<BlockPose> now, std::vector<BlockPose> long_before = {});
 
   /// A physical step begins.
   void begin_step();
@@ -45,7 +46,7 @@ class TileMotion {
   /// Maps across periodic links of the grid where it is.
   const std::vector<RigidMap>& periodic() const { return periodic_; }
 
-  /// Rigid poses at present and one step ago, for a restart.
+  /// Rigid poses at present and one step ago, of third order two steps ago too, for a restart.
   void save(std::vector<double>& to) const;
   void load(std::span<const double> from);
 
@@ -55,7 +56,8 @@ class TileMotion {
 
   TileArrays& arrays_;
   const PhysicalTime& time_;
-  std::vector<BlockPose> before_{1}, now_{1}, next_{1};  ///< one step ago, now, at the end of the next step
+  std::vector<BlockPose> long_before_{1}, before_{1}, now_{1},
+      next_{1};  ///< two steps ago, of third order; one step ago; now; at the end of the next step
   std::vector<RigidMap> periodic_;
 };
 

@@ -48,8 +48,8 @@ std::size_t TileGeometry::bytes() const {
   for (const auto* family : {&face_data, &speed_data}) std::ranges::for_each(*family, add);
   if (!history) return sum;
   const MotionHistory& h = *history;
-  for (const auto* a : {&h.reference_nodes, &h.old_nodes, &h.older_nodes}) add(*a);
-  for (const auto* family : {&h.swept, &h.old_swept}) std::ranges::for_each(*family, add);
+  for (const auto* a : {&h.reference_nodes, &h.old_nodes, &h.older_nodes, &h.oldest_nodes}) add(*a);
+  for (const auto* family : {&h.swept, &h.old_swept, &h.older_swept}) std::ranges::for_each(*family, add);
   return sum;
 }
 
@@ -99,6 +99,13 @@ void make_movable(TileGeometry& g) {
     for (auto* family : {&h.swept, &h.old_swept, &g.speed_data}) (*family)[d] = AlignedArray<double>(g.face_box[d].size(1));
   begin_step(g);
   begin_step(g);
+}
+
+void keep_third_step(TileGeometry& g) {
+  MotionHistory& h = *g.history;
+  h.oldest_nodes = AlignedArray<double>(g.node_box.size(3));
+  std::ranges::copy(g.node_data.span(), h.oldest_nodes.data());
+  for (int d = 0; d < 3; ++d) h.older_swept[d] = AlignedArray<double>(g.face_box[d].size(1));
 }
 
 double extent_along(const TileGeometry& g, const Eigen::Vector3d& normal, int k, int j, int i) {
@@ -156,6 +163,7 @@ void fill_boundary_geometry(TileGeometry& g, std::span<const TileBoundary> bound
 
 void begin_step(TileGeometry& g) {
   MotionHistory& h = *g.history;
+  if (h.third_order()) std::swap(h.older_nodes, h.oldest_nodes), std::swap(h.old_swept, h.older_swept);
   std::swap(h.old_nodes, h.older_nodes);
   std::ranges::copy(g.node_data.span(), h.old_nodes.data());
   std::swap(h.swept, h.old_swept);
@@ -195,6 +203,13 @@ void update_speeds(TileGeometry& g, TimeWeights weights, double dt, bool planar)
     BoxView<double> speed = g.speed(d);
     const BoxView<const double> swept{g.history->swept[d].data(), g.face_box[d]},
         old{g.history->old_swept[d].data(), g.face_box[d]};
+    if (g.history->third_order()) {
+      const BoxView<const double> older{g.history->older_swept[d].data(), g.face_box[d]};
+      for_box(g.face_box[d], [&](int k, int j, int i) {
+        speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), older(0, k, j, i), dt);
+      });
+      continue;
+    }
     for_box(g.face_box[d],
             [&](int k, int j, int i) { speed(0, k, j, i) = swept_rate(weights, swept(0, k, j, i), old(0, k, j, i), dt); });
   }
@@ -207,7 +222,10 @@ Eigen::Vector3d node_velocity(const TileGeometry& g, TimeWeights w, double dt, i
     const std::ptrdiff_t at = c * g.node_box.component + g.node_box.at(k, j, i);
     const double now = g.node_data.data()[at], old = h.old_nodes.data()[at];
     // With differences, not positions: digits of small steps far from the origin.
-    v[c] = (w.now * (now - old) - w.older * (old - h.older_nodes.data()[at])) / dt;
+    if (h.third_order())
+      v[c] = swept_rate(w, now - old, old - h.older_nodes.data()[at], h.older_nodes.data()[at] - h.oldest_nodes.data()[at], dt);
+    else
+      v[c] = (w.now * (now - old) - w.older * (old - h.older_nodes.data()[at])) / dt;
   }
   return v;
 }

@@ -32,6 +32,12 @@ struct MotionHistory {
   AlignedArray<double> old_nodes, older_nodes;           ///< one and two steps ago
   std::array<AlignedArray<double>, 3> swept, old_swept;  ///< [m3] in this step and in the one before
   RigidRate over_step;
+  // Of third order in time (empty otherwise).
+  AlignedArray<double> oldest_nodes;                ///< three steps ago
+  std::array<AlignedArray<double>, 3> older_swept;  ///< two steps before
+  RigidRate over_step_before;
+
+  bool third_order() const { return oldest_nodes.size() > 0; }
 };
 
 /// Arrays of one tile. Face n of direction d lies below cell n of that direction; its vector [m2] points towards growing index.
@@ -79,6 +85,8 @@ std::unique_ptr<TileGeometry> make_geometry(const MultiBlockGrid& grid, const Ti
 
 /// Lets a tile's nodes move from where they are: gives it room for what they were and what its faces sweep, all at rest.
 void make_movable(TileGeometry& geometry);
+/// Room for one step more, of third order in time. @pre the tile is movable and at rest
+void keep_third_step(TileGeometry& geometry);
 
 /// Of a cell, along a unit vector: its volume over the area that it shows there [m].
 double extent_along(const TileGeometry& geometry, const Eigen::Vector3d& normal, int k, int j, int i);

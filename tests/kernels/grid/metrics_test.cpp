@@ -123,3 +123,21 @@ TEST_CASE("BDF weights sum to zero and make the rates of swept volumes match the
   const double v0 = 1.0, v1 = 1.3, v2 = 1.1;  // older, old, now
   CHECK(swept_rate(w, v2 - v1, v1 - v0, 0.1) == Approx((w.now * v2 + w.old * v1 + w.older * v0) / 0.1));
 }
+
+TEST_CASE("BDF3 weights are exact for cubics, whatever the steps were, and are those of Curtiss and Hirschfelder for equal ones",
+          "[grid][fast]") {
+  const double ratio = GENERATE(0.5, 1.0, 1.7), ratio_before = GENERATE(0.5, 1.0, 2.0);
+  const TimeWeights w = bdf3(ratio, ratio_before);
+  CHECK(w.now + w.old + w.older + w.oldest == Approx(0).margin(1e-15));
+  // Times in steps of one: 0 is now.
+  const double older = -1.0 - 1.0 / ratio, oldest = older - 1.0 / (ratio * ratio_before);
+  const auto cubic = [](double t) { return 3.0 + 2.0 * t - 0.7 * t * t + 1.3 * t * t * t; };
+  CHECK(w.now * cubic(0) + w.old * cubic(-1) + w.older * cubic(older) + w.oldest * cubic(oldest) == Approx(2.0));
+  const double v0 = 1.2, v1 = 1.0, v2 = 1.3, v3 = 1.1;  // oldest, older, old, now
+  CHECK(swept_rate(w, v3 - v2, v2 - v1, v1 - v0, 0.1) == Approx((w.now * v3 + w.old * v2 + w.older * v1 + w.oldest * v0) / 0.1));
+  const TimeWeights equal = bdf3();
+  CHECK(equal.now == Approx(11.0 / 6.0));
+  CHECK(equal.old == Approx(-3.0));
+  CHECK(equal.older == Approx(1.5));
+  CHECK(equal.oldest == Approx(-1.0 / 3.0));
+}

@@ -38,14 +38,14 @@ std::vector<std::vector<double>> volumes(const GridStore& store) {
 }
 
 /// Largest |sum of rates through a cell's faces - rate of change of its volume| over the sum of what all its faces sweep per
-/// time. `before`, `long_before`: volumes one and two steps ago.
-double gcl_error(GridStore& store, const std::vector<std::vector<double>>& before,
-                 const std::vector<std::vector<double>>& long_before, TimeWeights w, double dt, bool planar) {
+/// time. `before`: volumes one, two and three steps ago.
+double gcl_error(GridStore& store, const std::array<std::vector<std::vector<double>>, 3>& before, TimeWeights w, double dt,
+                 bool planar) {
   double worst = 0;
   for (const int t : store.owned()) {
     TileGeometry& g = store[t];
-    const BoxView<const double> v = g.volume(), old{before[std::size_t(t)].data(), g.cell_box},
-                                older{long_before[std::size_t(t)].data(), g.cell_box};
+    const auto past = [&](std::size_t n) { return BoxView<const double>{before[n][std::size_t(t)].data(), g.cell_box}; };
+    const BoxView<const double> v = g.volume(), old = past(0), older = past(1), oldest = past(2);
     for_cells(store.tiling().tiles[t], [&](int k, int j, int i) {
       double sum = 0, size = 1e-300;
       for (int d = 0; d < (planar ? 2 : 3); ++d) {
@@ -53,7 +53,9 @@ double gcl_error(GridStore& store, const std::vector<std::vector<double>>& befor
         const double low = s(0, k, j, i), high = s(0, k + (d == 2), j + (d == 1), i + (d == 0));
         sum += high - low, size += std::abs(high) + std::abs(low);
       }
-      const double rate = (w.now * v(0, k, j, i) + w.old * old(0, k, j, i) + w.older * older(0, k, j, i)) / dt;
+      const double rate = (w.now * v(0, k, j, i) + w.old * old(0, k, j, i) + w.older * older(0, k, j, i) +
+                           (w.oldest != 0.0 ? w.oldest * oldest(0, k, j, i) : 0.0)) /
+                          dt;
       worst = std::max(worst, std::abs(rate - sum) / (size + std::abs(w.old) * v(0, k, j, i) / dt));
     });
   }
@@ -118,20 +120,22 @@ TEST_CASE("two tiles see the same face, opposite cells and one another's volumes
   }
 }
 
-TEST_CASE("a moving and deforming grid conserves volume to round-off under BDF1 and BDF2", "[aero][grid][fast]") {
-  const int which = GENERATE(0, 1, 2);
+TEST_CASE("a moving and deforming grid conserves volume to round-off under BDF1, BDF2 and BDF3", "[aero][grid][fast]") {
+  const int which = GENERATE(0, 1, 2), order = GENERATE(2, 3);
   const bool planar = which == 1;
   const BoxOptions box{.ni = 8, .nj = 9, .nk = 7};
   MultiBlockGrid grid = which == 2 ? thin_sheared_box(6, 1e-5)
                         : planar   ? turned_box(perturbed(planar_box(box), box, 0.05), 1)
                                    : turned_box(perturbed(cartesian_box(box), box, 0.05), 2);
   GridStore store = make_store(grid, true);
-  double previous = 0, time = 0, worst = 0;
-  std::vector<std::vector<double>> old = volumes(store), older;
-  for (int step = 0; step < 4; ++step) {
+  if (order == 3)
+    for (const int t : store.owned()) keep_third_step(store[t]);
+  double previous = 0, long_previous = 0, time = 0, worst = 0;
+  std::array<std::vector<std::vector<double>>, 3> past{volumes(store), volumes(store), volumes(store)};
+  for (int step = 0; step < 5; ++step) {
     const double dt = 0.1 * (1 + 0.3 * step);
     time += dt;
-    older = std::exchange(old, volumes(store));
+    past[2] = std::exchange(past[1], std::exchange(past[0], volumes(store)));
     for (const int t : store.owned()) {
       begin_step(store[t]);
       if (which == 2) {  // rigid: a turn and a flight
@@ -148,10 +152,12 @@ TEST_CASE("a moving and deforming grid conserves volume to round-off under BDF1 
       update_metrics(store[t], planar);
       update_sweeps(store[t], planar);
     }
-    const TimeWeights w = step == 0 ? bdf1 : bdf2(dt / previous);
+    const TimeWeights w = step == 0                 ? bdf1
+                          : step == 1 || order == 2 ? bdf2(dt / previous)
+                                                    : bdf3(dt / previous, previous / long_previous);
     for (const int t : store.owned()) update_speeds(store[t], w, dt, planar);
-    worst = std::max(worst, gcl_error(store, old, older, w, dt, planar));
-    previous = dt;
+    worst = std::max(worst, gcl_error(store, past, w, dt, planar));
+    long_previous = std::exchange(previous, dt);
   }
   INFO("GCL error " << worst << " grid " << which);
   CHECK(worst < 1e-14);
