@@ -119,6 +119,13 @@ const scene::Section<FlowOptions>& flow_section() {
                     "third order, a step per window, after one of first and one of second order; keeps a step more. Not A-stable "
                     "but A(86 degrees): what swings with little damping in less than some twenty steps a period may grow"}},
                   "Time integration. Default: \"bdf2\" where bodies carry a resolved rotor.")
+          .number(
+              "time_tolerance", &FlowOptions::time_tolerance, "-",
+              "Tolerance of the error in time of a step, momentum over what the air has beyond the undisturbed stream; keeps a "
+              "past state more. Air by itself divides its windows into 1 to 16 steps to hold it; on bodies a window stays one "
+              "step, and is warned of. Not given: no estimate.",
+              above(0.0).up_to(1.0))
+          .only_if("time", {"bdf2", "bdf3"})
           .number("cfl", &FlowOptions::cfl, "-", "CFL number of the first pseudo-step. Default: 2 of a resolved rotor.",
                   above(0.0).up_to(1e6))
           .number("cfl_max", &FlowOptions::cfl_max, "-", "Largest CFL number. Default: 1000 of a resolved rotor.",

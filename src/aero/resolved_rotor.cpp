@@ -143,9 +143,9 @@ void ResolvedRotor::fill_wall_distances(const GridProgress& told) {
 
 // ---- motion
 
-RotorPose ResolvedRotor::turned(std::int64_t step) const {
+RotorPose ResolvedRotor::turned(double windows) const {
   RotorPose pose = start_;
-  pose.azimuth += start_.speed * setup_.dt * double(step);
+  pose.azimuth += start_.speed * setup_.dt * windows;
   return pose;
 }
 
@@ -172,8 +172,8 @@ void ResolvedRotor::place(const RotorPlace& long_before, const RotorPlace& befor
   long_before_ = long_before, before_ = before, now_ = now;
 }
 
-void ResolvedRotor::placed_at(std::int64_t step) {
-  long_before_.pose = turned(step - 2), before_.pose = turned(step - 1), now_.pose = turned(step);
+void ResolvedRotor::placed_at(double windows) {
+  long_before_.pose = turned(windows - 2.0), before_.pose = turned(windows - 1.0), now_.pose = turned(windows);
 }
 
 // ---- loads

@@ -70,8 +70,8 @@ class ResolvedRotor {
   const MadeRotorGrid& made() const { return *made_; }  ///< without what only its making takes
   bool steady() const { return setup_.dt == 0.0; }
 
-  /// The rotor turning at the scene's speed with its hub at rest, after so many physical steps.
-  RotorPose turned(std::int64_t step) const;
+  /// The rotor turning at the scene's speed with its hub at rest, after so many windows.
+  RotorPose turned(double windows) const;
   const RotorPose& pose() const { return now_.pose; }
   /// At the end of the last step and at its beginning.
   const RotorPlace& now() const { return now_; }
@@ -84,7 +84,7 @@ class ResolvedRotor {
   /// Its present pose and those of one step and two steps ago, without flow in between: starts away from the scene's own pose.
   void place(const RotorPlace& long_before, const RotorPlace& before, const RotorPlace& now);
   /// Restarts: the solver has been placed by FlowRestart::load_march.
-  void placed_at(std::int64_t step);
+  void placed_at(double windows);
 
   /// Of the whole rotor after the last march, about the hub; one sector's load stands for all blades.
   RotorLoad load() const;

@@ -182,6 +182,8 @@ std::vector<io::Column> MarchingAir::columns() const {
   std::vector<io::Column> columns;
   for (const auto& c : march_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
   for (const auto& c : mass_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
+  if (has_time_tolerance())
+    for (const auto& c : time_error_columns()) columns.push_back({fmt::format("air.{}", c.name), c.unit, c.meaning});
   for (std::size_t b = 1; b <= loads_.computed.blades.size(); ++b)
     for (const auto& c : blade_columns()) columns.push_back({fmt::format("rotor.blade_{}.{}", b, c.name), c.unit, c.meaning});
   return columns;
@@ -191,6 +193,8 @@ std::vector<double> MarchingAir::values() const {
   std::vector<double> values;
   for (const auto& c : march_columns()) values.push_back(c.value(solver_->march()));
   for (const auto& c : mass_columns()) values.push_back(c.value(solver_->judgement().mass()));
+  if (has_time_tolerance())
+    for (const auto& c : time_error_columns()) values.push_back(c.value(solver_->time_error().value_or(0.0)));
   for (const aero::RotorLoad& blade : loads_.computed.blades)
     for (const auto& c : blade_columns()) values.push_back(c.value(blade));
   return values;
@@ -205,8 +209,19 @@ void MarchingAir::open_output(const io::RunDirectory& directory, double resume_s
       AirOutput::Choice{.walls = flow.surfaces, .moves = !scenario().has_actuator(), .resume_s = resume_s});
 }
 
+/// A window stays one step here: bodies and wind are told at its ends. Said once, and counted.
+void MarchingAir::judge_time_error() {
+  const double error = solver_->time_error().value_or(0.0);
+  if (!has_time_tolerance() || error <= *scenario().aero.flow->time_tolerance || ++above_tolerance_ > 1) return;
+  log_lines_.push_back(
+      fmt::format("warning: air: the step to t = {:g} s has an error in time of {:.2g}, {:.2g} is asked for "
+                  "(aero.flow.time_tolerance); try a shorter time.window_s; such windows are counted",
+                  t_, error, *scenario().aero.flow->time_tolerance));
+}
+
 void MarchingAir::end_window() {
   has_made_windows_ = true;
+  judge_time_error();
   const aero::PseudoStep& last = solver_->march().last;
   const bool first = limits_.shortened() + limits_.clipped() == 0;
   limits_.count(last.limited, last.clipped);
@@ -222,6 +237,7 @@ void MarchingAir::end_window() {
 
 AirSide::Account MarchingAir::account() const {
   Account account{{{"shortened_windows", limits_.shortened()}, {"clipped_windows", limits_.clipped()}}, {}, {}};
+  if (has_time_tolerance()) account.counts.emplace_back("windows_above_time_tolerance", above_tolerance_);
   for (const std::string& doubt : doubts_of_walls(*solver_, scenario(), world_)) account.doubts.push_back("air: " + doubt);
   const std::string text =
       limits_.text(fmt::format("the last pseudo-steps of {} windows", limits_.counted()), solver_->cells(), worst_limits_);

@@ -98,6 +98,9 @@ class MarchingAir : public AirSide {
  private:
   aero::ChangingWind wind_;
   const io::RunDirectory* directory_ = nullptr;
+  bool has_time_tolerance() const { return scenario().aero.flow->time_tolerance.has_value(); }
+  void judge_time_error();
+
   std::unique_ptr<AirOutput> output_;
   double made_s_ = 0.0;      ///< that make() took at most
   bool told_spent_ = false;  ///< that a step spent its pseudo-steps
@@ -105,6 +108,7 @@ class MarchingAir : public AirSide {
   aero::UpdateLimits limits_;
   aero::LimitPlaces worst_limits_;
   bool has_made_windows_ = false;  ///< since this process began
+  long above_tolerance_ = 0;       ///< windows of this process whose error in time was
 };
 
 /// Of the air in a coupled window [s].

@@ -316,6 +316,15 @@ Table<WindowReport> strong_columns() {
   return table;
 }
 
+Table<double> time_error_columns() {
+  static constexpr ColumnOf<double> table[] = {
+      {"time_error", "-",
+       "estimate of the error in time of the window's last physical step, momentum over what the air has beyond the undisturbed "
+       "stream; 0 where there are too few steps before it",
+       [](const double& error) { return error; }}};
+  return table;
+}
+
 Table<aero::MarchState> march_columns() {
   using Of = const aero::MarchState&;
   static constexpr ColumnOf<aero::MarchState> table[] = {
@@ -389,7 +398,8 @@ std::vector<io::ColumnSection> column_sections() {
           section_of("coupling.", "schemes other than monolithic", window_columns()),
           section_of("coupling.", "schemes that iterate", strong_columns()),
           section_of("air.", "resolved rotors on bodies", march_columns()),
-          section_of("air.", "resolved rotors on bodies: balance of the air's mass", mass_columns())};
+          section_of("air.", "resolved rotors on bodies: balance of the air's mass", mass_columns()),
+          section_of("air.", "resolved rotors on bodies, where aero.flow.time_tolerance is given", time_error_columns())};
 }
 
 }  // namespace spindrift::coupling

@@ -79,6 +79,7 @@ Table<sph::PatchReading> sensor_columns();
 Table<WindowReport> window_columns();     ///< coupling.
 Table<WindowReport> strong_columns();     ///< coupling., of schemes that iterate
 Table<aero::MarchState> march_columns();  ///< air.
+Table<double> time_error_columns();       ///< air.
 Table<aero::MassBalance> mass_columns();  ///< air., of the air alone flow.
 
 /// All of them, for pages.

@@ -210,15 +210,20 @@ void FlowCase::follow_walls(const aero::FlowOptions& o) {
 }
 
 void FlowCase::place(std::int64_t window, double window_s) {
-  const auto poses = [&](std::int64_t at) { return motion_->poses(double(at) * window_s); };
-  solver_->motion().place(poses(window - 1), poses(window), poses(window - 2));
+  const auto poses = [&](double at) { return motion_->poses(at * window_s); };
+  // Steps are windows or parts of them by a power of two: their ends are exact.
+  const auto length = [&](std::size_t n) {
+    return steps_divide_windows() && solver_->time_steps() > 0 ? solver_->step_before(n) / window_s : 1.0;
+  };
+  const double now = double(window), before = now - length(0);
+  solver_->motion().place(poses(before), poses(now), poses(before - length(1)));
 }
 
-void FlowCase::move(std::int64_t window, double window_s) {
-  solver_->set_wind(wind_.until(double(window + 1) * window_s));
-  if (rotor_ && !steady()) rotor_->move_to({rotor_->turned(window + 1)});
-  if (motion_) solver_->motion().move_to(motion_->poses(double(window + 1) * window_s));
-  if (actuator_) place_actuator(steady() ? 0.0 : double(window + 1) * window_s);
+void FlowCase::move(double end, double window_s) {
+  solver_->set_wind(wind_.until(end * window_s));
+  if (rotor_ && !steady()) rotor_->move_to({rotor_->turned(end)});
+  if (motion_) solver_->motion().move_to(motion_->poses(end * window_s));
+  if (actuator_) place_actuator(steady() ? 0.0 : end * window_s);
 }
 
 void FlowCase::place_actuator(double time) {
@@ -229,7 +234,7 @@ void FlowCase::place_actuator(double time) {
 
 void FlowCase::return_to(const aero::FlowSnapshot& to, std::int64_t window, double window_s) {
   solver_->restart().restore(to);
-  if (rotor_ && !steady()) rotor_->placed_at(window);
+  if (rotor_ && !steady()) rotor_->placed_at(double(window));
   if (motion_) place(window, window_s);
   solver_->judgement().rows.all.clear();
 }

@@ -37,11 +37,12 @@ class FlowCase {
   const aero::GridMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
   std::size_t blocks() const { return store_->tiling().block_cells.size(); }
   bool steady() const { return solver_->setting().time_order == 0; }
+  bool steps_divide_windows() const { return solver_->setting().time_tolerance.has_value(); }
 
-  /// Where the walls that move, and lines of force, are after so many windows.
+  /// Where the walls that move are after so many windows.
   void place(std::int64_t window, double window_s);
-  /// Where they go in the window that follows.
-  void move(std::int64_t window, double window_s);
+  /// Where they, a rotor and lines of force go in the step that follows, and with which wind: `end` in windows.
+  void move(double end, double window_s);
 
   /// The state at the end of a window, saved in memory to be restored.
   aero::FlowSnapshot snapshot() const { return solver_->restart().snapshot(); }

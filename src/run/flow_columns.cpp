@@ -44,6 +44,17 @@ Table<double> unsteady_columns() {
   return table;
 }
 
+Table<TimeSteps> time_columns() {
+  using Of = const TimeSteps&;
+  static constexpr ColumnOf<TimeSteps> table[] = {
+      {"time_error", "-",
+       "largest estimate of a step's error in time, momentum over what the air has beyond the undisturbed stream; 0 where there "
+       "are too few steps before it",
+       [](Of s) { return s.error; }},
+      {"time_steps", "-", "physical steps of the window", [](Of s) { return double(s.count); }}};
+  return table;
+}
+
 Table<Coefficients> coefficient_columns() {
   using Of = const Coefficients&;
   static constexpr ColumnOf<Coefficients> table[] = {
@@ -67,7 +78,7 @@ Table<WallMotion> wall_motion_columns() {
 }  // namespace
 
 FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::Actuator* actuator,
-                         const aero::GridMotion* motion, bool steady)
+                         const aero::GridMotion* motion, const aero::FlowSetting& setting)
     : rotor_(rotor),
       actuator_(actuator),
       motion_(motion),
@@ -80,15 +91,17 @@ FlowColumns::FlowColumns(io::History& history, const aero::ResolvedRotor* rotor,
   } else {
     coefficients_.emplace(history, "flow.", coefficient_columns());
   }
-  if (!steady) unsteady_.emplace(history, "flow.", unsteady_columns());
+  if (setting.time_order > 0) unsteady_.emplace(history, "flow.", unsteady_columns());
+  if (setting.time_tolerance) time_steps_.emplace(history, "flow.", time_columns());
   if (motion_) motion_columns_.emplace(history, "flow.", wall_motion_columns());
 }
 
 void FlowColumns::fill(std::span<double> row, double time, const aero::FlowSetting& s, const aero::PseudoRow& p,
-                       const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged) const {
+                       const aero::FlowOptions& o, const Eigen::Vector3d& wind, long unconverged, const TimeSteps& steps) const {
   march_.fill(row, p);
   mass_.fill(row, p.mass);
   if (unsteady_) unsteady_->fill(row, double(unconverged));
+  if (time_steps_) time_steps_->fill(row, steps);
   if (rotor_) {
     const double turns = rotor_->pose().azimuth / (2.0 * pi);
     rotor_columns_->fill(row, {rotor_->load(p), 360.0 * (turns - std::floor(turns)), rotor_->pose().speed * 30.0 / pi});
@@ -115,6 +128,7 @@ std::vector<io::ColumnSection> all_columns() {
   sections.push_back(section_of("flow.", "the air alone", pseudo_step_columns()));
   sections.push_back(section_of("flow.", "the air alone: balance of its mass", coupling::mass_columns()));
   sections.push_back(section_of("flow.", "the air alone, unsteady", unsteady_columns()));
+  sections.push_back(section_of("flow.", "the air alone, where aero.flow.time_tolerance is given", time_columns()));
   sections.push_back(section_of("flow.", "the air alone, without a rotor", coefficient_columns()));
   sections.push_back(section_of("flow.", "the air alone, with walls that move", wall_motion_columns()));
   return sections;

@@ -26,14 +26,20 @@ struct WallMotion {
   Eigen::Vector3d shift;
 };
 
+/// Of a window whose error in time is held to a tolerance.
+struct TimeSteps {
+  double error = 0.0;  ///< the largest of its steps; 0 where none could be estimated
+  int count = 1;
+};
+
 class FlowColumns {
  public:
   /// Declares them. `rotor`, `actuator`, `motion`: null where the scene has none; they outlive the columns.
   FlowColumns(io::History& history, const aero::ResolvedRotor* rotor, const aero::Actuator* actuator,
-              const aero::GridMotion* motion, bool steady);
+              const aero::GridMotion* motion, const aero::FlowSetting& setting);
   /// `wind`: undisturbed [m/s]; `time` [s]; `unconverged`: windows so far.
   void fill(std::span<double> row, double time, const aero::FlowSetting& setting, const aero::PseudoRow& p,
-            const aero::FlowOptions& options, const Eigen::Vector3d& wind, long unconverged) const;
+            const aero::FlowOptions& options, const Eigen::Vector3d& wind, long unconverged, const TimeSteps& steps) const;
 
  private:
   template <class Source>
@@ -49,6 +55,7 @@ class FlowColumns {
   Group<aero::PseudoRow> march_;
   Group<aero::MassBalance> mass_;
   std::optional<Group<double>> unsteady_;
+  std::optional<Group<TimeSteps>> time_steps_;
 };
 
 /// Of every scene: those of a floating system and of the air alone. For pages.

@@ -52,6 +52,7 @@ FlowSimulation::FlowSimulation(const coupling::Scenario& scenario, const io::Run
                double(air_.solver().bytes() + air_.store().bytes()) / double(std::max(1L, air_.solver().cells())) * world.size);
   if (air_.rotor())
     if (const std::string note = aero::far_side_note(*scenario.aero.grid); !note.empty()) spdlog::warn("air: {}", note);
+  if (const aero::FlowSetting& s = air_.solver().setting(); s.time_tolerance) steps_.emplace(*s.time_tolerance, s.time_order);
   air_.solver().fill_geometry(world.comm);
 }
 
@@ -95,8 +96,11 @@ void FlowSimulation::restore(const io::CheckpointReader& file) {
   air_.take(FlowCase::Start(file.integer("way")));
   file_.read(file);
   const std::int64_t window = file.integer("window");
-  air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
-  if (air_.rotor() && !air_.steady()) air_.rotor()->placed_at(window);
+  if (steps_)
+    steps_->set_count(int(file.integer("time_steps")));
+  else
+    air_.solver().set_time_step(timeline_.window_s(), timeline_.window_s());
+  if (air_.rotor() && !air_.steady()) air_.rotor()->placed_at(double(window));
   if (air_.motion()) air_.place(window, timeline_.window_s());
   if (!file.has(settled_name)) return;
   const std::vector<std::byte> bytes = file.read<std::byte>(settled_name);
@@ -113,6 +117,7 @@ void FlowSimulation::nothing_left() {
 void FlowSimulation::save(io::CheckpointCopy& copy) {
   if (!chosen_.empty()) copy.set("preconditioner", chosen_);
   copy.set("way", std::int64_t(air_.start()));
+  if (steps_) copy.set("time_steps", std::int64_t(steps_->count()));
   if (!settled_.empty()) copy.write<std::byte>(settled_name, std::as_bytes(std::span(settled_)));
   write(copy, file_.arrays());
   if (!air_.rotor()) return;
@@ -140,10 +145,14 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   if (air_.steady()) solver.judgement().march.limit(int(std::min<std::int64_t>(left, FlowCase::steady_chunk)));
   for (int retry = 0;; ++retry) {
     solver.judgement().march.ease(coupling::share_of_cfl(retry));
-    air_.move(window, timeline_.window_s());
-    march_->run();
+    const bool made = made_window(window);
     const bool given_up = march.verdict == aero::Verdict::stopped && !air_.steady();
-    if (march.verdict != aero::Verdict::failed && !given_up) break;
+    if (made && holds_tolerance(window + 1)) break;
+    if (made) {
+      air_.return_to(before, window, timeline_.window_s());
+      retry = -1;
+      continue;
+    }
     const std::string failure =
         fmt::format("t = {:g} s: aero: {} (pseudo-step {}, CFL {:.3g}, density residual {:.3g} after {:.3g} at first){}",
                     timeline_.window_end_s(window), march.why, march.steps, march.cfl, march.now.density, march.first.density,
@@ -181,6 +190,10 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
     solver.judgement().rows.keep_last();
   } else {
     rows_ = {solver.rows().back()};
+    if (steps_) {
+      rows_[0].step = pseudo_steps_ - 1;
+      steps_->end_window(window_.error);
+    }
     solver.judgement().rows.all.clear();
     advance.failure = unconverged_windows(window + 1);
   }
@@ -188,6 +201,33 @@ Advance FlowSimulation::advance(std::int64_t window, std::int64_t last) {
   advance.windows = std::int64_t(rows_.size());
   windows_ += advance.windows;
   return advance;
+}
+
+/// The steps of a window, or a chunk of a steady march; false where one came to nothing.
+bool FlowSimulation::made_window(std::int64_t window) {
+  const aero::MarchState& march = air_.solver().march();
+  const double window_s = timeline_.window_s();
+  window_ = {.error = 0.0, .count = steps_ ? steps_->count() : 1}, pseudo_steps_ = 0;
+  for (int n = 1; n <= window_.count; ++n) {
+    air_.move(double(window) + double(n) / window_.count, window_s);
+    if (steps_) air_.solver().set_time_step(window_s / window_.count);
+    march_->run();
+    if (march.verdict == aero::Verdict::failed || (march.verdict == aero::Verdict::stopped && !air_.steady())) return false;
+    pseudo_steps_ += march.steps;
+    window_.error = std::max(window_.error, air_.solver().time_error().value_or(0.0));
+  }
+  return true;
+}
+
+/// Whether what comes to the end of `window` stands; else it is to be made again with more steps.
+bool FlowSimulation::holds_tolerance(std::int64_t window) {
+  if (!steps_ || steps_->refine(window_.error)) return !steps_;
+  if (steps_->too_large(window_.error) && ++above_tolerance_ == 1)
+    spdlog::warn(
+        "air: the window to t = {:.6g} s has an error in time of {:.2g} in {} steps, {:.2g} is asked for "
+        "(aero.flow.time_tolerance); such windows are counted",
+        timeline_.window_end_s(window), window_.error, window_.count, *air_.solver().setting().time_tolerance);
+  return true;
 }
 
 void FlowSimulation::count_limits(std::span<const aero::PseudoRow> rows) {
@@ -279,12 +319,12 @@ std::string FlowSimulation::failure_at_end() const {
 std::string FlowSimulation::done() const { return air_.steady() ? "done: the pseudo-steps of the scene are spent" : "done"; }
 
 void FlowSimulation::declare(io::History& history) {
-  columns_.emplace(history, air_.rotor(), air_.actuator(), air_.motion(), air_.steady());
+  columns_.emplace(history, air_.rotor(), air_.actuator(), air_.motion(), air_.solver().setting());
 }
 
 void FlowSimulation::fill_row(std::int64_t window, std::span<double> row) {
   columns_->fill(row, timeline_.window_end_s(window), air_.solver().setting(), rows_.at(std::size_t(window - rows_from_ - 1)),
-                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged);
+                 *scenario_.aero.flow, flow_wind(scenario_), air_.solver().march().unconverged, window_);
 }
 
 std::vector<std::unique_ptr<Output>> FlowSimulation::outputs(const io::RunDirectory&, double) {
@@ -322,6 +362,10 @@ void FlowSimulation::summarise(io::Summary& summary, runtime::Ledger&) {
   summary.counts.emplace_back("cells", air_.solver().cells());
   summary.numerical_trouble.insert(summary.numerical_trouble.end(), doubts_.begin(), doubts_.end());
   summary.counts.emplace_back("krylov_steps", air_.solver().march().krylov_total);
+  if (steps_) {
+    summary.counts.emplace_back("time_steps", air_.solver().time_steps());
+    summary.counts.emplace_back("windows_above_time_tolerance", above_tolerance_);
+  }
   summary.counts.emplace_back("shortened_pseudo_steps", limits_.shortened());
   summary.counts.emplace_back("clipped_pseudo_steps", limits_.clipped());
 }

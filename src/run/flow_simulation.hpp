@@ -52,6 +52,8 @@ class FlowSimulation final : public Simulation {
   void use(const std::string& preconditioner, const std::string& reason);
   void record();
   std::size_t averaged(std::int64_t windows) const;
+  bool made_window(std::int64_t window);
+  bool holds_tolerance(std::int64_t window);
   void count_limits(std::span<const aero::PseudoRow> rows);
   void write_at_end(std::int64_t window);
 
@@ -70,9 +72,13 @@ class FlowSimulation final : public Simulation {
   std::vector<aero::PseudoRow> rows_;  ///< of the windows that the last advance() completed
   std::int64_t rows_from_ = 0;         ///< the window before them
   std::deque<aero::PseudoRow> last_rows_;
-  std::int64_t windows_ = 0;         ///< completed by this process
-  std::vector<std::string> doubts_;  ///< of the flow at the end, said in the log
-  aero::UpdateLimits limits_;        ///< of the pseudo-steps of this process
+  std::int64_t windows_ = 0;                ///< completed by this process
+  std::vector<std::string> doubts_;         ///< of the flow at the end, said in the log
+  aero::UpdateLimits limits_;               ///< of the pseudo-steps of this process
+  std::optional<aero::WindowSteps> steps_;  ///< where the error in time has a tolerance
+  TimeSteps window_;                        ///< of the last one
+  int pseudo_steps_ = 0;                    ///< that it took
+  long above_tolerance_ = 0;                ///< windows of this process
 };
 
 }  // namespace spindrift::run

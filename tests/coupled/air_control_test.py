@@ -1,6 +1,7 @@
 """A turbine under control in resolved air, as actuators and as blades: it settles where blade elements do, a pitch of the blades does to the thrust what blade
 elements say, events, same bits however it is run, what is refused. Usage: air_control_test.py SPINDRIFT [Actuators | Blades].
 SPDX-License-Identifier: Apache-2.0"""
+import json
 import unittest
 
 from running import AIR_OF_BLADES, ROOT, Runs
@@ -152,6 +153,16 @@ class Blades(Controlled):
             with self.subTest(name):
                 short = ["aero.flow.max_pseudo_steps=3", "aero.flow.drop=0.0", "time.end_s=0.6", "control.events=[{what='grid_loss', time_s=0.1}]"]
                 self.same_bits(BLADES, name, [*settings, *short], 0.4, on_ranks)
+
+    def test_third_order_in_time_has_the_same_bits_however_it_is_run_and_says_where_its_error_is_above_the_tolerance(self):
+        short = ["aero.flow.max_pseudo_steps=3", "aero.flow.drop=0.0", "time.end_s=0.8", "start.air_steps=5", "control.events=[{what='grid_loss', time_s=0.1}]"]
+        self.same_bits(BLADES, "third", [*short, "coupling.scheme=css", "aero.flow.time=bdf3", "aero.flow.time_tolerance=1e-9"], 0.5)
+        errors = [row["air.time_error"] for row in self.rows("third")]
+        self.assertEqual(errors[:4], [0.0] * 4)  # the start, and steps of lower order or without a level more
+        self.assertGreater(min(errors[4:]), 0.0)
+        said = (self.path / "third/log.txt").read_text()
+        self.assertRegex(said, r"the step to t = 0.4 s has an error in time of \S+, 1e-09 is asked for \(aero.flow.time_tolerance\)")
+        self.assertEqual(json.loads((self.path / "third/summary.json").read_text())["counts"]["windows_above_time_tolerance"], 5)
 
     def test_a_pitch_that_the_grid_cannot_follow_ends_the_run_by_name(self):
         # A controller that finds the blades far too flat turns them out at once: the grid is made at zero, the table has 17 degrees at 18 m/s.

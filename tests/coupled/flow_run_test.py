@@ -281,6 +281,29 @@ class FlowRun(Folder):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual((parts / "history.csv").read_bytes(), (self.out.parent / "elliptic/history.csv").read_bytes())
 
+    def test_windows_are_divided_until_the_error_in_time_is_below_its_tolerance(self):
+        # Windows eight times as long as the scene's: a fifth of a period.
+        case, tolerance = CASES / "pitching_naca0012/pitching.toml", 3e-3
+        settings = ["--no-report", "--set", "time.window_s=0.0615432", "--set", "time.end_s=0.4308024", "--set", "aero.flow.time='bdf3'",
+                    "--set", f"aero.flow.time_tolerance={tolerance}"]
+        done = spindrift("run", case, "--out", self.out, *settings)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        found = self.history()
+        self.assertEqual(len(found), 7)
+        for row in found:
+            self.assertIn(row["flow.time_steps"], (1, 2, 4, 8, 16))
+            self.assertGreater(row["flow.time_error"], 0.0)
+            self.assertLessEqual(row["flow.time_error"], tolerance)
+        self.assertEqual(found[0]["flow.time_steps"], 16)
+        self.assertLess(found[-1]["flow.time_steps"], 16)
+        # In parts and on two ranks: the same bits.
+        parts = self.out.parent / "parts"
+        done = spindrift("run", case, "--out", parts, *settings, "--until", "0.24617")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = spindrift("run", case, "--out", parts, *settings, "--restart", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual((parts / "history.csv").read_bytes(), (self.out / "history.csv").read_bytes())
+
     def test_a_motion_that_cannot_be_is_refused(self):
         case = CASES / "pitching_naca0012/pitching.toml"
         for setting, words in (("aero.flow.motion.patches=['blade']", 'no patch "blade"'),

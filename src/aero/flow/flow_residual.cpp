@@ -154,6 +154,12 @@ void FlowResidual::fill_gradient_ghosts(FlowTile& tile, const double* state) con
   fill_boundary_gradients(tile, state, gas_, model_.wall_spread);
 }
 
+Eigen::Vector3d FlowResidual::undisturbed(const Eigen::Vector3d& place, double ago) const {
+  if (!boundary_.wind.steady()) return boundary_.wind.velocity(place, ago);
+  const gas::Primitive<double> stream = stream_at(boundary_.stream, boundary_.profile, place.z());
+  return {stream.u, stream.v, stream.w};
+}
+
 std::vector<WallPoint> FlowResidual::wall_points(const FlowTile& tile) const {
   std::vector<WallPoint> points;
   gather_wall(tile, tile.state.data(), viscous_, boundary_, points);

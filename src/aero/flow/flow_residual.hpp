@@ -48,6 +48,8 @@ class FlowResidual {
   bool has_friction() const { return viscous_.active; }
   /// As FlowSolver::use_limiter.
   void use_limiter(std::string_view limiter);
+  /// Velocity of the undisturbed wind at a place, so long before the end of the step.
+  Eigen::Vector3d undisturbed(const Eigen::Vector3d& place, double ago) const;
   /// Values on the walls of a tile.
   std::vector<WallPoint> wall_points(const FlowTile& tile) const;
 

@@ -17,6 +17,7 @@ FlowSolver::FlowSolver(GridStore& grid, const FlowSetting& setting, std::vector<
       motion_(arrays_, time_),
       system_(setting, arrays_, residual_),
       judgement_(setting, std::move(conditions), arrays_),
+      time_error_(setting, arrays_, time_, residual_),
       restart_(arrays_, motion_, time_, judgement_.march, system_, setting.coarse.common_steps) {}
 
 void FlowSolver::gather_bands(LoadBands bands) {
@@ -54,7 +55,7 @@ void FlowSolver::set_time_step(double dt, std::optional<double> before) {
 }
 
 void FlowSolver::record(runtime::Graph& graph) {
-  record_march(graph, {arrays_, time_, motion_, residual_, system_, judgement_}, recorded_);
+  record_march(graph, {arrays_, time_, motion_, residual_, system_, judgement_, time_error_}, recorded_);
 }
 
 void FlowSolver::fill_geometry(MPI_Comm comm) {
@@ -65,7 +66,7 @@ void FlowSolver::fill_geometry(MPI_Comm comm) {
 
 void FlowSolver::fill_gradients(MPI_Comm comm) {
   runtime::Graph graph(comm);
-  record_gradients(graph, {arrays_, time_, motion_, residual_, system_, judgement_}, recorded_);
+  record_gradients(graph, {arrays_, time_, motion_, residual_, system_, judgement_, time_error_}, recorded_);
   runtime::Executor(std::move(graph), {.threads = 1}).run();
 }
 

@@ -22,6 +22,7 @@
 #include "src/aero/flow/tasks.hpp"
 #include "src/aero/flow/tile_arrays.hpp"
 #include "src/aero/flow/tile_motion.hpp"
+#include "src/aero/flow/time_error.hpp"
 
 namespace spindrift::aero {
 
@@ -75,6 +76,10 @@ class FlowSolver {
 
   /// Length of the next physical step and, where it is not that of the last one made, of those before it [s].
   void set_time_step(double dt, std::optional<double> before = {});
+  /// Length of the n-th last step that was made [s].
+  double step_before(std::size_t n) const { return time_.before[n]; }
+  /// Of the step made last, where the setting has a tolerance.
+  std::optional<double> time_error() const { return time_error_.estimate(); }
   /// Physical steps since the start.
   std::int64_t time_steps() const { return time_.steps; }
 
@@ -108,6 +113,7 @@ class FlowSolver {
   TileMotion motion_;
   ImplicitSystem system_;
   Judgement judgement_;
+  TimeError time_error_;
   FlowRestart restart_;
   RecordedGraphs recorded_;
 };

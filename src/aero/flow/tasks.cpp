@@ -461,6 +461,19 @@ void update_state(MarchRecording& r) {
 
 // ---- the march
 
+/// Of the physical step that has been made.
+void time_error(MarchRecording& r) {
+  const std::vector<Datum> error = r.graph.data(r.owned());
+  r.each(
+      "aero/time_error",
+      [&](std::size_t n) {
+        return Uses{reads(r.flow.decision), reads(r.flow.state[n]), reads(r.flow.past[n]), writes(error[n])};
+      },
+      [&r](std::size_t n) { r.time_error.measure(n); });
+  r.graph.reduce("aero/time_error/sums", {reads(error), writes(r.graph.datum())},
+                 {.partials = r.time_error.sums.partials, .result = r.time_error.sums.result});
+}
+
 void pseudo_march(MarchRecording& r, int urgency) {
   if (r.time.unsteady()) begin_time_step(r);
   begin_march(r);
@@ -490,6 +503,7 @@ void pseudo_march(MarchRecording& r, int urgency) {
         update_state(r);
         r.graph.until("aero/converged", {reads(r.flow.decision)}, [&r] { return ends_march(r.judgement.march.state().verdict); });
       });
+  if (r.time_error.asked()) time_error(r);
 }
 
 }  // namespace

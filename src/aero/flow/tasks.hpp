@@ -12,6 +12,7 @@
 #include "src/aero/flow/physical_time.hpp"
 #include "src/aero/flow/tile_arrays.hpp"
 #include "src/aero/flow/tile_motion.hpp"
+#include "src/aero/flow/time_error.hpp"
 
 namespace spindrift::aero {
 
@@ -23,6 +24,7 @@ struct MarchParts {
   FlowResidual& residual;
   ImplicitSystem& system;
   Judgement& judgement;
+  TimeError& time_error;
 };
 
 /// What the tasks of recorded graphs refer to; to live as long as their executors.

@@ -418,6 +418,29 @@ TEST_CASE("the memory of a rotor is foretold within a tenth of what it takes", "
     }
 }
 
+TEST_CASE("third order in time, and a tolerance of its error, cost a past level each, as foretold", "[rotor][fast]") {
+  const auto sizes = [](const std::string& time, std::optional<double> tolerance) {
+    ResolvedRotorSetup s = tiny(time, true);
+    s.flow.time_tolerance = tolerance;
+    const ResolvedRotor rotor(s);
+    const ResolvedRotorSize size = resolved_rotor_size(s);
+    const double cells = double(size.cells), state = 5.0 * 8.0;
+    return std::array{(size.bytes - size.bytes_of_checkpoint) / cells,  // without the copy that a restart point takes
+                      double(const_cast<ResolvedRotor&>(rotor).store().bytes() + rotor.solver().bytes()) / cells,
+                      size.bytes_of_checkpoint / cells / state,
+                      double(rotor.solver().restart().size(0)) / double(rotor.solver().tiles()[0].box.count()) / 5.0};
+  };
+  const auto second = sizes("bdf2", {}), third = sizes("bdf3", {}), held = sizes("bdf3", 1e-3);
+  CHECK(second[3] == 3.0);
+  CHECK(third[3] == 4.0);
+  CHECK(held[3] == 5.0);
+  for (const auto& of : {second, third, held}) CHECK(of[2] == Approx(of[3]));
+  CAPTURE(second[1], third[1], held[1]);
+  CHECK(third[1] - second[1] > 90.0);  // the flow's past, places of nodes and swept volumes
+  CHECK(third[0] - second[0] == Approx(third[1] - second[1]).epsilon(0.1));
+  CHECK(held[0] - third[0] == Approx(held[1] - third[1]).epsilon(0.1));
+}
+
 #if !defined(SPINDRIFT_SANITIZED)  // whose heap is not the one that is asked
 TEST_CASE("a rank has the air of its own tiles, and not a number for each cell of all others", "[rotor][fast]") {
   const auto in_use = [] {
