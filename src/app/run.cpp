@@ -61,6 +61,12 @@ io::RunDirectory open_directory(const RunArguments& arguments, MPI_Comm world) {
 const std::vector<std::string> free_at_restart = {"time.end_s",         "output",     "checkpoint",         "runtime",
                                                   "coupling.placement", "sea.fields", "aero.flow.surfaces", "coupling.air_ranks"};
 
+/// What no restart can change: a checkpoint has those states of steps before that its own scheme needs.
+bool is_of_scheme_in_time(const scene::Difference& d) {
+  const bool comes_or_goes = d.before == "absent" || d.now == "absent";
+  return d.what == "aero.flow.time" || (d.what == "aero.flow.time_tolerance" && comes_or_goes);
+}
+
 /// A restart goes on with the run that the checkpoint is of: refused before anything is written where it would be another one.
 /// Returns whether the scene changed by what is allowed.
 bool require_same_run(io::RunDirectory& directory, const scene::Identity& now, const RunArguments& arguments, MPI_Comm world) {
@@ -75,6 +81,13 @@ bool require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
     if (key != "history.csv" && !names_part_of(now, key) && !names_part_of(scene::Identity::parsed(saved), key))
       throw io::InputError("--allow-change " + key +
                            ": neither this scene nor that of the first run has a key or file of that name");
+  if (!arguments.allowed.empty())
+    for (const scene::Difference& d : differences(scene::Identity::parsed(saved), now, free_at_restart))
+      if (is_of_scheme_in_time(d))
+        throw io::InputError(
+            fmt::format("--restart: {}: was {}, is {}: a checkpoint has the steps that its own scheme needs, so "
+                        "--allow-change cannot let this pass; begin anew",
+                        d.what, d.before, d.now));
   std::vector<std::string> free = free_at_restart;
   free.insert(free.end(), arguments.allowed.begin(), arguments.allowed.end());
   const std::vector<scene::Difference> all = differences(scene::Identity::parsed(saved), now, free);

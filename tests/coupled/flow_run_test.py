@@ -241,6 +241,16 @@ class FlowRun(Folder):
             for field, values in wall.items():
                 numpy.testing.assert_array_equal(found[1][name][field], values, field)
 
+    def test_no_restart_changes_the_scheme_in_time(self):
+        scene, options = CASES / "cylinder_re100/cylinder.toml", ["--no-report", "--quiet", "--set", "aero.flow.generate.around=32", "--set", "aero.flow.generate.outward=16"]
+        self.assertEqual(spindrift("run", scene, "--out", self.out, *options, "--until", "0.002").returncode, 0)
+        for key, value in (("time", "bdf3"), ("time_tolerance", "1e-2")):
+            change = ("--set", f"aero.flow.{key}={value}", "--allow-change", f"aero.flow.{key}")
+            done = spindrift("run", scene, "--out", self.out, *options, "--until", "0.004", "--restart", *change)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"aero.flow.{key}: was", done.stderr)
+            self.assertIn("cannot let this pass", done.stderr)
+
     def test_the_automatic_preconditioner_is_written_down_and_kept(self):
         case = CASES / "cylinder_low_mach/cylinder.toml"
         options = ["--no-report", "--set", "aero.flow.preconditioner='auto'"]
