@@ -5,6 +5,8 @@
 #include <filesystem>
 
 #include "src/app/commands.hpp"
+#include "src/app/scene_file.hpp"
+#include "src/coupling/floating_system.hpp"
 #include "src/import/openfast.hpp"
 #include "src/import/windio.hpp"
 #include "src/io/machine_failure.hpp"
@@ -12,6 +14,21 @@
 #include "src/scene/value.hpp"
 
 namespace spindrift::app {
+
+namespace {
+
+/// What was written must be a scene: read as `check` reads it, with the files that it names.
+void require_valid(const std::filesystem::path& file) {
+  try {
+    scene::Document document = load_scene(file.string(), {});
+    const coupling::FloatingSystem floating(coupling::read_scenario(document));
+  } catch (const scene::SceneError&) {
+    fmt::print("\nNot yet a valid scene: mend what follows in {}, or in the deck\n", file.string());
+    throw;
+  }
+}
+
+}  // namespace
 
 int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   if (world.rank != 0) return done;
@@ -38,6 +55,7 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);
   if (!result.left_out.empty()) fmt::print("\nLeft out\n");
   for (const std::string& what : result.left_out) fmt::print("  {}\n", what);
+  require_valid(result.scene);
   return done;
 }
 

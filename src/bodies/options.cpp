@@ -85,7 +85,8 @@ void check_inertia(const BodyOptions& o, const scene::Report& report) {
   const Eigen::Matrix3d& i = o.inertia_kg_m2;
   if (d.minCoeff() <= 0.0 || i(0, 0) * i(1, 1) - i(0, 1) * i(0, 1) <= 0.0 || i.determinant() <= 0.0)
     return report("inertia_kg_m2", "must be positive definite");
-  if (2.0 * d.maxCoeff() > d.sum() * (1.0 + 1e-9))
+  constexpr double rounding = 1e-3;  // of published figures
+  if (d.maxCoeff() > (d.sum() - d.maxCoeff()) * (1.0 + rounding))
     report("inertia_kg_m2",
            fmt::format("no mass can have it: the largest diagonal term, {}, exceeds the sum of the other two", d.maxCoeff()));
 }

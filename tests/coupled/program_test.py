@@ -90,6 +90,19 @@ class Program(Folder):
         self.assertIn(f"{self.out}/scene.toml: is there already", done.stderr)
         self.assertIn("this is not an OpenFAST main file", spindrift("import", CASE1, "--out", self.out, "--overwrite").stderr)
 
+    def test_an_import_whose_scene_is_not_valid_ends_as_check_does_and_names_why(self):
+        turbine = (ROOT / "tests/src/import/windio_sample.hpp").read_text().partition('R"(')[2].partition(')"')[0]
+        file = self.path / "turbine.yaml"
+        file.write_text(turbine)
+        done = spindrift("import", file, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        file.write_text(turbine.replace("air_density: 1.225", "air_density: 1.0e+9"))
+        done = spindrift("import", file, "--out", self.out, "--overwrite")
+        self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+        self.assertIn("Not yet a valid scene", done.stdout)
+        self.assertIn("environment.air_density_kg_m3", done.stderr)
+        self.assertEqual(spindrift("check", self.out / "scene.toml").returncode, 2)
+
     def recorded(self, *more, ranks=0, threads=None):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"

@@ -113,6 +113,13 @@ TEST_CASE("a joint's law is read in degrees, and its table gives the load on the
   CHECK(laws[0].load({-3.0, 0.0}) == Approx(7.0 * (3.0 + pi / 2 - 2.0 * pi) + 200.0));  // the first row holds
 }
 
+TEST_CASE("published inertias of a flat body, rounded, are a body's", "[bodies][fast]") {
+  // The ITI barge of OpenFAST's tests: 7e-5 beyond what a plate has.
+  const Read scene =
+      read("[bodies.barge]\nmass_kg = 5452000\ninertia_kg_m2 = [726.9e6, 726.9e6, 1453.9e6]\ncentre_m = [0, 0, 0]\n");
+  CHECK(make_bodies(scene.bodies)[0].inertia(2, 2) == 1453.9e6);
+}
+
 TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][fast]") {
   struct Case {
     std::string text, message;
@@ -121,6 +128,7 @@ TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][f
       Case{"", "at least one [bodies.NAME]"}, Case{"[bodies.a]\nmass_kg = 1\ncentre_m = [0, 0, 0]\n", "inertia_kg_m2"},
       Case{"[bodies.a]\nmass_kg = -1\ninertia_kg_m2 = [1, 1, 1]\ncentre_m = [0, 0, 0]\n", "mass_kg"},
       Case{"[bodies.a]\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 3]\ncentre_m = [0, 0, 0]\n", "no mass can have it"},
+      Case{"[bodies.a]\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 2.01]\ncentre_m = [0, 0, 0]\n", "no mass can have it"},
       Case{"[bodies.a]\nmass_kg = 1\ninertia_kg_m2 = [1, 1, -1]\ncentre_m = [0, 0, 0]\n", "positive definite"},
       Case{"[bodies.earth]\n" + mass + "centre_m = [0, 0, 0]\n", "fixed frame"},
       Case{platform + "[joints.a]\nbodies = ['platform', 'rotr']\npoint_m = [0, 0, 0]\naxis = [1, 0, 0]\n",
