@@ -11,6 +11,8 @@ LEAST_SWINGS = 4   # half periods whose ranges are compared
 SMALLEST = 0.02    # of the first range: what is smaller is noise or another motion
 GROWTH = 1.002     # of the ranges of a motion without damping: peaks between rows are known so well
 DIFFER = 1.5       # times: damping of the first and of the last swings that is not one
+SLIGHT_LOAD = 1e-5  # of the bodies' weight: a rotor's thrust that is nothing
+STANDS = 1e-3      # rpm: a rotor that turns no faster stands
 SCATTER = 0.3      # of the mean decrement: what the decrements of one motion may be off a line over the swing by
 
 
@@ -87,13 +89,32 @@ def is_driven(joint):
     return any(value for driver in drivers for key, value in driver.items() if key not in ("period_s", "phase_deg"))
 
 
+def slight_thrust(run):
+    """What a thrust must exceed to count [N]: a share of the weight of the scene's bodies; 0 where none has a mass."""
+    masses = [body.get("mass_kg") for body in (run.scene.get("bodies") or {}).values() if isinstance(body, dict)]
+    gravity = (run.scene.get("environment") or {}).get("gravity_m_s2", 9.80665)
+    return SLIGHT_LOAD * gravity * sum(mass for mass in masses if isinstance(mass, (int, float)))
+
+
+def _rotors_rest(run):
+    """Do all rotors stand in air that stands, without a thrust? What the motion itself makes of drag has no mean, and damps as water does."""
+    wind = run.scene.get("wind") or {}
+    if wind.get("speed_m_s", 0.0) != 0.0 or any(wind.get(key) for key in ("table", "turbulence", "event")):
+        return not quantities.rotors_of(run.columns)
+    for rotor in quantities.rotors_of(run.columns):
+        speed, thrust = run.column(f"{rotor}.rpm") if f"{rotor}.rpm" in run.columns else np.array([math.inf]), run.column(f"{rotor}.thrust_N")
+        if not np.abs(speed).max(initial=0.0) <= STANDS or not abs(thrust.sum()) <= slight_thrust(run) * len(thrust):
+            return False
+    return True
+
+
 def is_free(run):
-    """Nothing drives the bodies of the scene for good: no waves, no rotor that turns, no paddle, no joint's driver."""
+    """Nothing drives the bodies of the scene for good: no waves, no wind on a rotor and none that turns, no paddle, no joint's driver."""
     scene, waves = run.scene, run.scene.get("waves") or {}
     wavy = waves.get("model") not in (None, "none") and waves.get("height_m", math.inf) > 0.0   # those of a file have no height
     paddle = isinstance(scene.get("sea"), dict) and bool(scene["sea"].get("wavemaker"))
     driven = any(is_driven(joint) for joint in (scene.get("joints") or {}).values() if isinstance(joint, dict))
-    return not wavy and not paddle and not driven and not quantities.rotors_of(run.columns)
+    return not wavy and not paddle and not driven and _rotors_rest(run)
 
 
 @functools.lru_cache(maxsize=8)

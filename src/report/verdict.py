@@ -692,6 +692,14 @@ def _swings(run):
     return Check("warn", "Settled", still + mixed) if still else None, mixed
 
 
+def _slight(run, name):
+    """What a rotor's thrust or power must change by to count: the thrust that is nothing, and its power in the wind or at 1 m/s."""
+    quantity, wind = name.rpartition(".")[2], _value(run.scene, "wind", "speed_m_s")
+    if quantity not in ("thrust_N", "power_W"):
+        return 0.0
+    return decay.slight_thrust(run) * (max(1.0, wind if isinstance(wind, (int, float)) else 0.0) if quantity == "power_W" else 1.0)
+
+
 def _settled(run):
     """Do the means stand for more than their stretch? Halves of the range compared, for all figures that the run answers with."""
     if len(run.time) < 20 or is_steady(run) or kind(run) in ("tank", "run"):
@@ -720,7 +728,7 @@ def _settled(run):
             values = run.column(name)
             size = abs(words.mean(run.time[chosen], values[chosen]))
             # A swinging load has halves whose means differ by chance: a fifth of its swing is none.
-            if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name)):
+            if abs(change := between(values)) > max(0.05 * size, 0.2 * words.deviation(run.time[chosen], values[chosen]), run.round_off(name), _slight(run, name)):
                 moving.append(f"{text} by {words.number(100.0 * change / max(size, 1e-300), 2)} %")
     moving += _moving_bodies(run, between, chosen)
     asked = _value(run.scene, "output", "means_over_s")

@@ -128,6 +128,26 @@ class DecayTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table=table, log="", scene="[bodies.float]\nmass_kg = 1.0\n" + more)
                 self.assertEqual(len(decay.decays(RunData(folder))), count)
 
+    def test_a_turbine_that_stands_in_still_air_swings_freely(self):
+        t = 0.1 * np.arange(1500)
+        still, bodies = "[wind]\nspeed_m_s = 0.0\n", "[bodies.float]\nmass_kg = 5e6\n[waves]\nmodel = 'none'\n"
+        for wind, rpm, thrust, count in ((still, 0.0, -65.0, 1), ("", 0.0, -65.0, 1), ("[wind]\nspeed_m_s = 8.0\n", 0.0, -65.0, 0), (still + "table = 'wind.csv'\n", 0.0, -65.0, 0),
+                                         (still, 5.0, -65.0, 0), (still, 0.0, 1e5, 0)):
+            with self.subTest(wind=wind, rpm=rpm, thrust=thrust), tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": t, "float.x_m": 0 * t, "float.pitch_deg": swing(t, 10.0, 0.03), "rotor.rpm": rpm + 0 * t, "rotor.thrust_N": thrust + 0 * t}
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene=bodies + wind)
+                run = RunData(pathlib.Path(folder))
+                self.assertEqual(len(decay.decays(run)), count)
+                self.assertEqual(verdict.answers(run)[0][0], "pitch, period" if count else "pitch")
+
+    def test_a_thrust_that_is_nothing_beside_the_weight_need_not_settle(self):
+        t = 0.1 * np.arange(1500)
+        for size, level in ((65.0, "good"), (65e3, "warn")):
+            with self.subTest(size), tempfile.TemporaryDirectory() as folder:
+                table = {"time_s": t, "float.x_m": 0 * t, "rotor.rpm": 0.01 * t, "rotor.thrust_N": -size * t / t[-1], "rotor.power_W": -size * t / t[-1]}
+                synthetic_run.write(pathlib.Path(folder), table=table, log="", scene="[bodies.float]\nmass_kg = 5e6\n[wind]\nspeed_m_s = 0.0\n")
+                self.assertEqual(next(c for c in verdict.health(RunData(pathlib.Path(folder))) if c.title == "Settled").level, level)
+
 
 if __name__ == "__main__":
     unittest.main()
