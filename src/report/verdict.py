@@ -80,8 +80,9 @@ def what_ran(run):
         air = "blade elements and a wake of vortex filaments"
     wave = _value(scene, "waves", "height_m")
     rotors = len(quantities.rotors_of(run.columns))
-    many = f"{rotors} turbines on their foundation" if _stands(run) else f"A floater with {rotors} rotors"
-    one = "A turbine on its foundation" if _stands(run) else "A floating turbine"
+    driven = set(told_bodies.told(run)[1]) & told_bodies.towed(run)
+    many = f"{rotors} turbines in prescribed motion" if driven else f"{rotors} turbines on their foundation" if _stands(run) else f"A floater with {rotors} rotors"
+    one = "A turbine in prescribed motion" if driven else "A turbine on its foundation" if _stands(run) else "A floating turbine"
     named = {"floating turbine": many if rotors > 1 else one, "rotor": "A rotor", "flow": "A flow round walls" if _walls(run) else "A flow",
              "bodies": "Bodies", "tank": "A tank of water", "run": "A run"}[kind(run)]
     parts = [p for p in ((air if kind(run) == "floating turbine" else None), sea) if p]
@@ -142,6 +143,11 @@ def _of(body, several):
     return f" of {body}" if several else ""
 
 
+def _need_names(run, bodies):
+    """Do motions need the name of their body? Where there are several, and of a turbine that stands: not the whole of it moves."""
+    return len(bodies) > 1 or (kind(run) == "floating turbine" and _stands(run))
+
+
 def _across(run, rotor):
     """The force of a rotor in its plane: what its load on its body has besides the thrust. None where no column tells, or where the tower's drag is in it."""
     given = dict(run.rotors()).get(rotor) or {}
@@ -180,7 +186,7 @@ def answers(run):
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
     bodies, of_headline = told_bodies.told(run)
-    several = len(bodies) > 1
+    several = _need_names(run, bodies)
     if sort == "bodies" and is_impact(run):
         for body in impact.launched(run)[:MOST_BODIES]:
             add(f"heave{_of(body, several)}, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
@@ -670,19 +676,19 @@ def _moving_bodies(run, between, chosen):
     """In words: motions of bodies whose means differ between the halves of their stretch."""
     bodies, towed = told_bodies.told(run)[0], told_bodies.towed(run)
     random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
-    return [f"{_motion(name, bodies)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}"
+    return [f"{_motion(run, name, bodies)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}"
             for name, change in motions.changing(run, [b for b in bodies if b not in towed], between, chosen, random)]
 
 
-def _motion(name, bodies):
+def _motion(run, name, bodies):
     """'sway', of several bodies 'sway of heavy'."""
-    return motions.spoken(name) + _of(name.rpartition(".")[0], len(bodies) > 1)
+    return motions.spoken(name) + _of(name.rpartition(".")[0], _need_names(run, bodies))
 
 
 def _swings(run):
     """(the check of bodies that swing freely, None where their means count; in words: which of their swings are of several motions)."""
     (few, mixed), free = motions.still_swinging(run), motions.decays(run)
-    named = lambda columns: " and ".join(_motion(name, quantities.bodies_of(run.columns)) for name in columns)
+    named = lambda columns: " and ".join(_motion(run, name, quantities.bodies_of(run.columns)) for name in columns)
     mixed = [*mixed, *(d.column for d in free if d.several)]
     mixed = f"; several motions are in {named(mixed)}, whose swings do not fall as those of one: no single damping holds" if mixed else ""
     still = f"still swinging in {named(few)}, too few times for a period and a damping: run on (time.end_s)" if few else ""
@@ -761,7 +767,7 @@ def _whole_waves(run):
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
     chosen, off = run.mean_range()[0], []
     tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
-    for text, name, least in (*((_motion(name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body)),
+    for text, name, least in (*((_motion(run, name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body)),
                               *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
             values = motions.values_of(run, name)

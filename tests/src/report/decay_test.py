@@ -130,7 +130,7 @@ class DecayTest(unittest.TestCase):
 
     def test_a_turbine_that_stands_in_still_air_swings_freely(self):
         t = 0.1 * np.arange(1500)
-        still, bodies = "[wind]\nspeed_m_s = 0.0\n", "[bodies.float]\nmass_kg = 5e6\n[waves]\nmodel = 'none'\n"
+        still, bodies = "[wind]\nspeed_m_s = 0.0\n", "[sea]\nmodel = 'hydrostatic'\n[bodies.float]\nmass_kg = 5e6\n[waves]\nmodel = 'none'\n"
         for wind, rpm, thrust, count in ((still, 0.0, -65.0, 1), ("", 0.0, -65.0, 1), ("[wind]\nspeed_m_s = 8.0\n", 0.0, -65.0, 0), (still + "table = 'wind.csv'\n", 0.0, -65.0, 0),
                                          (still, 5.0, -65.0, 0), (still, 0.0, 1e5, 0)):
             with self.subTest(wind=wind, rpm=rpm, thrust=thrust), tempfile.TemporaryDirectory() as folder:

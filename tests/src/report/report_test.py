@@ -698,7 +698,7 @@ class PartsTest(unittest.TestCase):
         t = 0.1 * np.arange(100)
         table = {"time_s": t, "hub.x_m": 0 * t, "hub.pitch_deg": 5.0 * np.sin(t), "rotor.thrust_N": 1e6 + 0 * t}
         bearing = "[joints.bearing]\nbodies = ['earth', 'hub']\n"
-        for rotor, said in (("[rotor]\njoint = 'bearing'\n", ["thrust"]), ("[rotor]\nbody = 'hub'\n", ["pitch", "thrust"])):
+        for rotor, said in (("[rotor]\njoint = 'bearing'\n", ["thrust"]), ("[rotor]\nbody = 'hub'\n", ["pitch of hub", "thrust"])):
             with self.subTest(rotor), tempfile.TemporaryDirectory() as folder:
                 synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.hub]\nmass_kg = 1.0\n" + bearing + rotor, log="")
                 self.assertEqual([words for words, _, _ in verdict.answers(RunData(pathlib.Path(folder)))], said)
@@ -745,6 +745,19 @@ class PartsTest(unittest.TestCase):
             with self.subTest(scene), tempfile.TemporaryDirectory() as folder:
                 synthetic_run.write(pathlib.Path(folder), table=table, scene=scene, log="")
                 self.assertTrue(verdict.what_ran(RunData(pathlib.Path(folder))).startswith("A floating turbine" if floats else "A turbine on its foundation"))
+
+    def test_motions_of_a_turbine_that_stands_are_those_of_a_named_body_and_one_that_is_led_is_told_as_such(self):
+        t = 0.1 * np.arange(400)
+        table = {"time_s": t, "nacelle.x_m": 0.2 + 0.1 * np.sin(t), "rotor.thrust_N": 1e6 + 0 * t}
+        led = "[joints.shaker]\ntype = 'prismatic'\nbodies = ['earth', 'nacelle']\n[joints.shaker.translation]\namplitude_m = 2.0\nperiod_s = 10.0\n"
+        beam = "[beams.tower]\nbodies = ['earth', 'nacelle']\n"
+        for scene, what, motion in ((beam, "A turbine on its foundation", "surge of nacelle"), (led, "A turbine in prescribed motion", "surge of nacelle"),
+                                    ("[sea]\nmodel = 'morison'\n", "A floating turbine", "surge")):
+            with self.subTest(scene), tempfile.TemporaryDirectory() as folder:
+                synthetic_run.write(pathlib.Path(folder), table=table, scene=scene + "[rotor]\nbody = 'nacelle'\n", log="")
+                run = RunData(pathlib.Path(folder))
+                self.assertTrue(verdict.what_ran(run).startswith(what), verdict.what_ran(run))
+                self.assertEqual(verdict.answers(run)[0][0], motion)
 
     def test_a_body_that_turns_with_a_rotor_has_no_key_figures(self):
         t = 0.1 * np.arange(400)
@@ -814,7 +827,7 @@ class PartsTest(unittest.TestCase):
         t = 0.1 * np.arange(401)
         table = {"time_s": t, "float.x_m": 0.2 + 0 * t, "float.z_m": np.sin(2 * np.pi * t / 10.0), "rotor.thrust_N": 1.2e6 + 0 * t}
         with tempfile.TemporaryDirectory() as folder:
-            synthetic_run.write(pathlib.Path(folder), table=table, scene="[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
+            synthetic_run.write(pathlib.Path(folder), table=table, scene="[sea]\nmodel = 'hydrostatic'\n[bodies.float]\nmass_kg = 1.0\n", log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
             said = {text: value for text, value, _ in verdict.answers(RunData(pathlib.Path(folder)))}
             self.assertTrue(said["heave"].endswith(" ± 0.71"), said)
             self.assertEqual(said["surge"], "0.2000")
