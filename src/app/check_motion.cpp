@@ -77,15 +77,17 @@ void print_all_blade_modes(const FloatingSystem& floating) {
   for (std::size_t n = 0; n < each.size(); ++n) print_blade_modes(each[n], floating.rotors()[n]);
 }
 
-/// Their names; those of equal name get numbers, "surge of float (1)". Modes that do not move are not shown, and not counted.
+/// Their names; those of equal name get numbers from the lowest frequency on, "bending in x of tower (1)". Modes that do not move
+/// are not shown, and not counted. @pre fastest first, as a linearisation has them
 std::vector<std::string> told_apart(const std::vector<bodies::Mode>& modes) {
   std::map<std::string, int> all, so_far;
   for (const bodies::Mode& mode : modes)
     if (mode.eigenvalue != 0.0) ++all[mode.name];
-  std::vector<std::string> names;
-  for (const bodies::Mode& mode : modes)
-    names.push_back(mode.eigenvalue != 0.0 && all[mode.name] > 1 ? fmt::format("{} ({})", mode.name, ++so_far[mode.name])
-                                                                 : mode.name);
+  std::vector<std::string> names(modes.size());
+  for (std::size_t n = modes.size(); n-- > 0;) {
+    const bodies::Mode& mode = modes[n];
+    names[n] = mode.eigenvalue != 0.0 && all[mode.name] > 1 ? fmt::format("{} ({})", mode.name, ++so_far[mode.name]) : mode.name;
+  }
   return names;
 }
 

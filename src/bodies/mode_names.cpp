@@ -68,20 +68,28 @@ std::string deformation_name(const Beam& beam, const BodiesState& state, const M
   return names[std::size_t(std::ranges::max_element(energy) - energy.begin())] + (" of " + beam.name);
 }
 
+/// Share of the energy of the whole moving as one that a beam's deformation has where the mode is the beam's. A base that rolls
+/// under a top that stands still, as in a tower's second mode, has the energy of both; the deformation has the top's alone.
+constexpr double undone = 0.3;
+
 std::string name_of(const System& system, const BodiesState& state, const Eigen::VectorXd& chart_direction,
                     std::span<const Beam> beams) {
   std::vector<Moving> all = moving(system, state, system.motion_of_freedoms() * chart_direction);
   for (const Beam* beam : from_the_top(beams)) carry(*beam, state, all);
+  const auto beam_of = [&](std::size_t b) {
+    return std::ranges::find_if(beams, [b](const Beam& beam) { return std::size_t(beam.j) == b; });
+  };
   double most = -1.0;
   std::size_t mover = 0, axis = 0;
   for (std::size_t b = 0; b < all.size(); ++b) {
     const Moving& m = all[b];
     for (int k = 0; k < 6; ++k) {
-      const double energy = k < 3 ? m.mass * m.linear[k] * m.linear[k] : m.inertia(k - 3, k - 3) * m.spin[k - 3] * m.spin[k - 3];
+      const double own = k < 3 ? m.mass * m.linear[k] * m.linear[k] : m.inertia(k - 3, k - 3) * m.spin[k - 3] * m.spin[k - 3];
+      const double energy = beam_of(b) != beams.end() ? own / undone : own;
       if (energy > most * (1.0 + 1e-9)) most = energy, mover = b, axis = std::size_t(k);
     }
   }
-  const auto bent = std::ranges::find_if(beams, [mover](const Beam& beam) { return std::size_t(beam.j) == mover; });
+  const auto bent = beam_of(mover);
   if (bent != beams.end()) return deformation_name(*bent, state, all[mover]);
   return freedom_names[axis] + (" of " + system.bodies()[mover].name);
 }

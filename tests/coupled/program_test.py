@@ -509,6 +509,14 @@ class Checks(unittest.TestCase):
         for found, expected in zip(*tensions, strict=True):
             self.assertAlmostEqual(found, expected, delta=2e-3 * expected)
 
+    def test_modes_of_one_name_are_numbered_from_the_lowest_frequency_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.toml")
+            scene.write_text(f'base = "{ROOT}/inputs/validation/dtu_tower/dtu_tower.toml"\nwithout = ["bodies.rotor", "joints.shaft"]\n', encoding="utf-8")
+            said = spindrift("check", scene).stdout
+        periods = [float(re.search(rf"bending in x of tower \({n}\) +period +([\d.]+) s", said)[1]) for n in (1, 2)]
+        self.assertGreater(periods[0], 4.0 * periods[1])
+
     def test_a_start_that_is_no_equilibrium_is_told_with_its_modes(self):
         self.assertIn("the start is no equilibrium (it accelerates by", checked("tutorials/pendulum.toml")[1])
         self.assertNotIn("is no equilibrium", checked("leble_barakos/case3_engineering.toml")[1])
