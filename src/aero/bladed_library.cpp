@@ -165,10 +165,11 @@ BladedLibrary::Asked BladedLibrary::tell(const Told& told) {
                            long(calls_), told.time);
   };
   if (fail < 0) give_up(said.empty() ? fmt::format("gave up with {}", fail) : said);
-  if (fail > 0 && !said.empty() && warnings_.size() < most_warnings)
-    if (const std::string warning = fmt::format("control.library {}: {}", options_.library, said);
-        std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end())
-      warnings_.push_back(warning);
+  if (std::vector<std::string>& said_so_far = calls_ == 0 ? greetings_ : warnings_;
+      fail > 0 && !said.empty() && said_so_far.size() < most_warnings)
+    if (const std::string message_of_it = fmt::format("control.library {}: {}", options_.library, said);
+        std::find(said_so_far.begin(), said_so_far.end(), message_of_it) == said_so_far.end())
+      said_so_far.push_back(message_of_it);
 
   const auto record = [this](int number) { return double(swap_[std::size_t(number - 1)]); };
   for (const auto& [number, meaning] : {std::pair{48, "a yaw rate of the nacelle"}, std::pair{55, "the pitch override"},
@@ -212,5 +213,7 @@ BladedLibrary::Asked BladedLibrary::call(std::int64_t before, const Told& told) 
 }
 
 std::vector<std::string> BladedLibrary::take_warnings() { return std::exchange(warnings_, {}); }
+
+std::vector<std::string> BladedLibrary::take_greetings() { return std::exchange(greetings_, {}); }
 
 }  // namespace spindrift::aero

@@ -61,6 +61,8 @@ class BladedLibrary {
   void set_log(std::span<const Told> log) { log_.assign(log.begin(), log.end()), stale_ = true; }
   /// Its warnings since they were last asked for.
   std::vector<std::string> take_warnings();
+  /// What it says with a warning's code at its first call: who wrote it, as a rule.
+  std::vector<std::string> take_greetings();
 
  private:
   class Loaded;
@@ -76,7 +78,7 @@ class BladedLibrary {
   Told last_;
   std::vector<float> swap_;
   std::vector<Told> log_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, greetings_;
 };
 
 }  // namespace spindrift::aero

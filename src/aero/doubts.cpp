@@ -32,7 +32,14 @@ void doubt_axis(scene::Doubts& doubts, const std::string& at, const WindOptions&
          off > 120.0 ? "turn its sign, or wind.direction_deg" : "look at it and at wind.direction_deg (to, not from)"});
 }
 
-void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions& wind, const RotorAtStart& start, bool blown) {
+/// Blades that are pitched out of the wind on a rotor that hardly turns: parked or idling, as in load cases of storms.
+bool is_feathered(const RotorOptions& rotor, double tip_speed, double wind) {
+  constexpr double out_of_the_wind = 45.0;
+  return rotor.blade_pitch > out_of_the_wind * radians_per_degree && tip_speed < wind;
+}
+
+void doubt_speed(scene::Doubts& doubts, const std::string& at, const RotorOptions& rotor, const WindOptions& wind,
+                 const RotorAtStart& start, bool blown) {
   if (start.speed < 0.0)
     doubts.push_back({at, fmt::format("{:.4g} rpm", start.speed / rad_s_per_rpm),
                       "above zero: clockwise seen from upwind, as the blades are made", "turn its sign, or the axis"});
@@ -41,6 +48,7 @@ void doubt_speed(scene::Doubts& doubts, const std::string& at, const WindOptions
     doubts.push_back({at, fmt::format("{:.4g} rpm, tips at {:.4g} m/s", start.speed / rad_s_per_rpm, tip), "tips up to 130 m/s",
                       "look at its unit: rpm, not rad/s or deg/s"});
   if (!blown || start.radius <= 0.0 || wind.speed_m_s < 3.0 || tip > 130.0 || start.speed < 0.0 || start.parked) return;
+  if (is_feathered(rotor, tip, wind.speed_m_s)) return;
   const double ratio = tip / wind.speed_m_s;
   if (ratio < 2.0 || ratio > 16.0)
     doubts.push_back(
@@ -337,7 +345,7 @@ scene::Doubts rotor_doubts(const AeroOptions& aero, const RotorOptions& rotor, c
   const bool blown = aero.model != "prescribed" && wind.speed_m_s > 0.0;
   const std::string axis_key = rotor.joint.empty() ? "rotor.axis" : "joints." + rotor.joint + ".axis";
   doubt_axis(doubts, axis_key, wind, start.axis, blown);
-  doubt_speed(doubts, start.speed_key, wind, start, blown);
+  doubt_speed(doubts, start.speed_key, rotor, wind, start, blown);
   if (aero.model != "prescribed") append(doubts, wind_doubts(wind, start.radius, start.over_water));
   doubt_load(doubts, wind, air_density, start, blown);
   doubt_curve(doubts, aero, wind, air_density, start);

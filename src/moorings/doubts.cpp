@@ -263,13 +263,24 @@ void doubt_fairlead(scene::Doubts& doubts, const std::string& at, const LineOpti
 }
 
 /// Steel fills 7850 kg/m3, with wires and sheaths to 12000. With the bar's diameter, of which studless chain displaces 1.8 times,
-/// a chain has 25000.
-void doubt_diameter(scene::Doubts& doubts, const std::string& at, const LineOptions& line) {
-  if (line.mass_kg_m <= 0.0 || line.diameter_m <= 0.0) return;
+/// a chain has 25000, as some published models have it. Lines alike are told of once.
+void doubt_diameters(scene::Doubts& doubts, const std::vector<scene::Named<LineOptions>>& lines) {
   constexpr double most = 20e3;
-  if (const double density = line.mass_kg_m / (0.25 * pi * line.diameter_m * line.diameter_m); density > most)
-    doubts.push_back({at + ".diameter_m",
-                      fmt::format("{:.4g} m at {:.4g} kg/m, {:.3g} kg/m3", line.diameter_m, line.mass_kg_m, density),
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;  // what is wrong, and of which lines
+  for (const auto& [name, line] : lines) {
+    if (line.mass_kg_m <= 0.0 || line.diameter_m <= 0.0) continue;
+    const double density = line.mass_kg_m / (0.25 * pi * line.diameter_m * line.diameter_m);
+    if (density <= most) continue;
+    const std::string what = fmt::format("{:.4g} m at {:.4g} kg/m, {:.3g} kg/m3", line.diameter_m, line.mass_kg_m, density);
+    const auto alike = std::ranges::find_if(found, [&](const auto& one) { return one.first == what; });
+    if (alike == found.end())
+      found.push_back({what, {name}});
+    else
+      alike->second.push_back(name);
+  }
+  for (const auto& [what, names] : found)
+    doubts.push_back({"moorings." + names[0] + ".diameter_m",
+                      names.size() > 1 ? fmt::format("{} (and {} more lines)", what, names.size() - 1) : what,
                       fmt::format("up to {:g} kg/m3", most),
                       "it is that of the displaced volume, for studless chain 1.8 times the bar's; look at its unit: m"});
 }
@@ -314,6 +325,7 @@ void doubt_step(scene::Doubts& doubts, const std::string& at, const LineOptions&
 
 scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, const LineSurroundings& around) {
   scene::Doubts doubts;
+  doubt_diameters(doubts, lines);
   for (const auto& [name, line] : lines) {
     const std::string at = "moorings." + name;
     const double weight_N_m = weight_in_water(line, around.water_density_kg_m3, around.gravity_m_s2);
@@ -323,7 +335,6 @@ scene::Doubts line_doubts(const std::vector<scene::Named<LineOptions>>& lines, c
     doubt_floats(doubts, at, line, around);
     doubt_fairlead(doubts, at, line, around, lines);
     doubt_friction(doubts, at, line);
-    doubt_diameter(doubts, at, line);
     doubt_coefficients(doubts, at, line);
     doubt_table(doubts, at, line, around);
     if (line_models().named(line.model).make_dynamic)

@@ -306,8 +306,10 @@ Advance SystemSimulation::advance(std::int64_t window, std::int64_t) {
                  coupling::most_retries, smaller_steps(floating_, retry));
     report = window_.advance(state_, retry);
   }
-  if (aero::BladedLibrary* library = library_of(floating_))
+  if (aero::BladedLibrary* library = library_of(floating_)) {
+    for (const std::string& greeting : library->take_greetings()) spdlog::info("{}", greeting);
     for (const std::string& warning : library->take_warnings()) spdlog::warn("{}", warning);
+  }
   write_log_lines();
   if (report.stopped) return {};
   log_window(report, end_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());

@@ -517,6 +517,30 @@ class Checks(unittest.TestCase):
         periods = [float(re.search(rf"bending in x of tower \({n}\) +period +([\d.]+) s", said)[1]) for n in (1, 2)]
         self.assertGreater(periods[0], 4.0 * periods[1])
 
+    def test_a_parked_rotor_with_its_blades_out_of_the_wind_has_no_doubtful_speed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.toml")
+            scene.write_text(f'base = "{ROOT}/inputs/validation/dtu_tower/dtu_tower.toml"\nwithout = ["bodies.rotor", "joints.shaft"]\n'
+                             f'[aero]\nmodel = "bem"\n[wind]\nspeed_m_s = 50.0\n[rotor]\nbody = "nacelle"\nturbine = "{ROOT}/inputs/turbines/dtu_10mw.toml"\n'
+                             'hub_m = [-7.073, 0.0, 119.0]\naxis = [1.0, 0.0, 0.0]\nspeed_rpm = 0.0\nblade_pitch_deg = 90.0\n', encoding="utf-8")
+            for settings, doubted in (((), False), (("rotor.speed_rpm=0.1",), False), (("rotor.blade_pitch_deg=0.0",), True), (("rotor.speed_rpm=8.0",), True)):
+                with self.subTest(settings):
+                    done = spindrift("check", scene, settings=settings)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual("warning: rotor.speed_rpm: " in done.stdout, doubted, done.stdout)
+
+    def test_lines_alike_whose_diameter_is_doubted_are_told_of_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.toml")
+            scene.write_text(f'base = "{ROOT}/inputs/validation/oc3_heave_decay/oc3_heave_decay.toml"\nwithout = ["moorings"]\n' + "".join(
+                f'[moorings.line_{n}]\nmodel = "lumped_mass"\nbody = "spar"\nfairlead_m = [{5.2 * math.cos(2 * n)}, {5.2 * math.sin(2 * n)}, -70.0]\nanchor_m = [{850 * math.cos(2 * n)}, {850 * math.sin(2 * n)}, -320.0]\n'
+                'rest_length_m = 902.2\naxial_stiffness_N = 3.84e8\nmass_kg_m = 77.7\ndiameter_m = 0.06\n' for n in range(3)), encoding="utf-8")
+            done = spindrift("check", scene)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        warnings = [line for line in done.stdout.splitlines() if "diameter_m: " in line]
+        self.assertEqual(len(warnings), 1, done.stdout)
+        self.assertIn("(and 2 more lines)", warnings[0])
+
     def test_a_start_that_is_no_equilibrium_is_told_with_its_modes(self):
         self.assertIn("the start is no equilibrium (it accelerates by", checked("tutorials/pendulum.toml")[1])
         self.assertNotIn("is no equilibrium", checked("leble_barakos/case3_engineering.toml")[1])

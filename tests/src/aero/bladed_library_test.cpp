@@ -168,6 +168,17 @@ TEST_CASE("a library that gave up may be asked again from before", "[aero][fast]
   CHECK(library.call(3, told(3)).generator_torque == last);
 }
 
+TEST_CASE("what a library says with a warning's code at its first call alone is a greeting", "[aero][fast]") {
+  const InputFile file("warn_from -1.0");  // at every call
+  BladedLibrary library(file.options(), 3);
+  library.call(0, told(0));
+  CHECK(library.take_warnings().empty());
+  CHECK(library.take_greetings().size() == 1);
+  library.call(1, told(1));
+  CHECK(library.take_warnings().size() == 1);
+  CHECK(library.take_greetings().empty());
+}
+
 TEST_CASE("a library's warnings are kept once each", "[aero][fast]") {
   const InputFile file("warn_from 1.0");
   BladedLibrary library(file.options(), 3);
