@@ -114,6 +114,12 @@ const scene::Section<OutputOptions>& output_section() {
   static const auto section =
       scene::Section<OutputOptions>("output", "What a run writes.")
           .text("title", &OutputOptions::title, "Title of the report; the scene's file name where empty.")
+          .texts(
+              "caveats", &OutputOptions::caveats,
+              "What the scene lacks of what it stands for and answers depend on, one sentence each: the report tells it beside "
+              "its verdict. An import writes what it left out.")
+          .texts("notes", &OutputOptions::notes,
+                 "What else a reader should know of the scene, one sentence each: in the report under what was modelled.")
           .integer("history_every", &OutputOptions::history_every, "-", "Windows from one row of history.csv to the next.",
                    scene::between(1, 1e9))
           .choice("openfast", &OutputOptions::openfast,

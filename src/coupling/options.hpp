@@ -56,6 +56,7 @@ struct ExpectedOptions {
 
 struct OutputOptions {
   std::string title;
+  std::vector<std::string> caveats, notes;  ///< what the scene has not of what it stands for
   std::string openfast = "none";
   int history_every = 1;
   double means_over_s = 0.0;  ///< 0: the last third of the run

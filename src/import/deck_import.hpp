@@ -17,8 +17,11 @@ struct DeckImport {
   Deck main;
   std::filesystem::path folder;                    ///< of the scene
   std::vector<std::string> left_out{}, carried{};  ///< one sentence each, as in Imported
+  std::vector<std::string> caveats{};              ///< of left_out, what changes answers; in the scene as output.caveats
 
   void leave_out(std::string what) { left_out.push_back(std::move(what)); }
+  /// A part of the model, whose lack the report tells beside its verdict.
+  void leave_out_part(const std::string& what) { left_out.push_back(what), caveats.push_back(what); }
   void carry(std::string what) { carried.push_back(std::move(what)); }
   /// A number that no scene has, and the value at which it does nothing.
   struct Neutral {
@@ -36,6 +39,9 @@ inline constexpr double window = 0.1;  ///< time.window_s of every scene [s]
 inline constexpr std::initializer_list<const char*> tower_freedoms = {"TwFADOF1", "TwFADOF2", "TwSSDOF1", "TwSSDOF2"};
 /// Whether one of these flags is on.
 bool any_on(const Deck& elastodyn, std::initializer_list<const char*> freedoms);
+
+/// caveats and notes of [output], a line each where there are some.
+std::string toml_remarks(const std::vector<std::string>& left_out, const std::vector<std::string>& caveats);
 
 /// As a scene has a vector; components of round-off are 0.
 std::string toml_vector(const Eigen::Vector3d& v);

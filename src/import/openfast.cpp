@@ -62,7 +62,7 @@ ImportedEnvironment import_environment(DeckImport& run, const Deck& elastodyn, b
 
 /// What moves in the deck and is rigid in the scene, and modules that are not carried over.
 void list_rigid_parts(DeckImport& run, const Deck& elastodyn, bool tower_bends, bool shaft_twists) {
-  if (any_on(elastodyn, tower_freedoms) && !tower_bends) run.leave_out("bending of the tower: it is rigid (--rigid-tower)");
+  if (any_on(elastodyn, tower_freedoms) && !tower_bends) run.leave_out_part("bending of the tower: it is rigid (--rigid-tower)");
   if (tower_bends && !std::ranges::all_of(tower_freedoms, [&](const char* f) { return elastodyn.flag({f}, false); }))
     run.leave_out("TwFADOF1, TwFADOF2, TwSSDOF1, TwSSDOF2: not all are on, the tower here bends in all four modes");
   if (any_on(elastodyn, {"YawDOF", "TeetDOF"})) run.leave_out("motion of yaw bearing and teeter");
@@ -70,7 +70,7 @@ void list_rigid_parts(DeckImport& run, const Deck& elastodyn, bool tower_bends, 
     run.leave_out("twist of the shaft: it is rigid where no controller turns the rotor");
   for (const auto& [part, name] :
        {std::pair{"CompSub", "SubDyn: what stands on it is fixed"}, std::pair{"CompIce", "ice"}, std::pair{"CompSoil", "soil"}})
-    if (run.main.integer({part}, 0) != 0) run.leave_out(name);
+    if (run.main.integer({part}, 0) != 0) run.leave_out_part(name);
 }
 
 /// What of the structure has no place in a scene.
@@ -92,10 +92,8 @@ void write_scene(const DeckImport& run, double step, const std::string& sections
   const double end = window * std::max(1.0, std::round(run.main.number({"TMax"}) / window));
   std::ofstream out(file);
   out << fmt::format("# From the OpenFAST deck {}, by spindrift import.\n", run.main.file().filename().string());
-  if (!run.left_out.empty()) out << "# Left out:\n";
-  for (const std::string& what : run.left_out) out << "# - " << what << "\n";
   out << fmt::format("[time]\nend_s = {:.9g}\nwindow_s = {}\nstep_s = {}\n", end, window, step) << sections;
-  out << fmt::format("\n[output]\ntitle = \"{}\"\n", run.main.file().stem().string());
+  out << fmt::format("\n[output]\ntitle = \"{}\"\n", run.main.file().stem().string()) << toml_remarks(run.left_out, run.caveats);
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
@@ -123,7 +121,7 @@ Imported import_openfast(const std::filesystem::path& main_file, const std::file
   const bool moving_water = water.text.find("[waves]") != std::string::npos || water.text.find("\ncurrent_") != std::string::npos;
   const std::string moorings = system.floats ? import_moorings(run, environment, moving_water, lines) : "";
   if (!system.floats && main.integer({"CompMooring"}, 0) != 0)
-    run.leave_out("mooring lines: what they hold does not float (CompHydro 0 or CompSub 1)");
+    run.leave_out_part("mooring lines: what they hold does not float (CompHydro 0 or CompSub 1)");
   const double step = std::min(system.tower_bends ? flexible_step : rigid_step, turbine.longest_step);
   const ImportedControl control = import_control(run, elastodyn, rotor, !turbine.text.empty(), {step, turbine.longest_step});
   system.controlled = !control.text.empty();

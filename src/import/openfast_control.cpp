@@ -84,7 +84,7 @@ void list_times(DeckImport& run, const Deck& servodyn, double end_s) {
 ImportedControl import_control(DeckImport& run, const Deck& ed, const RotorFrame& rotor, bool has_rotor, TimeSteps bodies) {
   const bool turns = ed.flag({"GenDOF"}, false);
   if (run.main.integer({"CompServo"}, 0) != 1) {
-    if (turns) run.leave_out("GenDOF without ServoDyn: the rotor keeps its speed");
+    if (turns) run.leave_out_part("GenDOF without ServoDyn: the rotor keeps its speed");
     return {};
   }
   const Deck deck(run.main.path({"ServoFile"}));
@@ -121,7 +121,7 @@ ImportedControl import_control(DeckImport& run, const Deck& ed, const RotorFrame
   else if (const std::filesystem::path library = deck.path({"DLL_FileName"}); !std::filesystem::exists(library))
     why = fmt::format("its library {} is not there", library.string());
   if (why.empty()) return library(run, deck, ed, rotor, bodies);
-  run.leave_out(
+  run.leave_out_part(
       fmt::format("ServoDyn ({}): the rotor keeps its speed and pitch; give [control] (about the shaft the rotor has {:.6g} kg "
                   "m2, which then come off the body's inertia, the generator {:.6g})",
                   why, rotor_inertia(ed, rotor), generator_inertia(ed)));

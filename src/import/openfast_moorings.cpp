@@ -129,7 +129,7 @@ std::string import_moorings(DeckImport& run, const ImportedEnvironment& environm
   const int kind = run.main.integer({"CompMooring"}, 0);
   if (kind == 0) return "";
   if (kind != 1 && kind != 3) {
-    run.leave_out(fmt::format("mooring lines of CompMooring {}", kind));
+    run.leave_out_part(fmt::format("mooring lines of CompMooring {}", kind));
     return "";
   }
   const Deck file(run.main.path({"MooringFile"}), kind == 1 ? "" : "!#%");  // in MAP++ "#" marks what it looks for

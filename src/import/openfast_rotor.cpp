@@ -102,11 +102,11 @@ ImportedRotor bending_keys(DeckImport& run, const Deck& ed, const RotorFrame& ro
   ImportedRotor keys;
   if (!any_on(ed, {"FlapDOF1", "FlapDOF2", "EdgeDOF"})) return keys;
   if (blades == ImportedBlades::rigid) {
-    run.leave_out("bending of the blades: they are rigid (--rigid-blades)");
+    run.leave_out_part("bending of the blades: they are rigid (--rigid-blades)");
     return keys;
   }
   if (!rotor.beamdyn_blades.empty()) {
-    run.leave_out("bending of BeamDyn's blades: they are rigid");
+    run.leave_out_part("bending of BeamDyn's blades: they are rigid");
     return keys;
   }
   const ImportedBending bending = blade_bending(ed, rotor, run.left_out);
@@ -129,11 +129,12 @@ ImportedRotor bending_keys(DeckImport& run, const Deck& ed, const RotorFrame& ro
 ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& rotor, const ImportedSystem& system,
                            ImportedBlades blades) {
   const bool blows = run.main.integer({"CompInflow"}, 0) == 1, aero = run.main.integer({"CompAero"}, 0) == 2;
-  if (run.main.integer({"CompAero"}, 0) == 1) run.leave_out("AeroDyn 14 or AeroDisk (CompAero 1): no aerodynamics in the scene");
+  if (run.main.integer({"CompAero"}, 0) == 1)
+    run.leave_out_part("AeroDyn 14 or AeroDisk (CompAero 1): no aerodynamics in the scene");
   if (!aero || !blows) {
     run.carry("no aerodynamics");
     if (any_on(ed, {"FlapDOF1", "FlapDOF2", "EdgeDOF"}))
-      run.leave_out("bending of the blades: they are rigid without aerodynamics");
+      run.leave_out_part("bending of the blades: they are rigid without aerodynamics");
     return {};
   }
   const Deck ad(run.main.path({"AeroFile"}));
@@ -167,9 +168,9 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
   for (std::string& what : turbine.left_out) run.leave_out(std::move(what));
   std::string text = import_wind(run, Deck(run.main.path({"InflowFile"})), rotor.hub.z());
   if (ad.integer({"Wake_Mod", "WakeMod"}, 1) == 0)
-    run.leave_out("no induction (Wake_Mod 0): blades are in balance with their wake");
+    run.leave_out_part("no induction (Wake_Mod 0): blades are in balance with their wake");
   const int wake = ad.integer({"Wake_Mod", "WakeMod"}, 1);
-  if (wake > 2) run.leave_out("the free-vortex wake (Wake_Mod 3): blade element momentum");
+  if (wake > 2) run.leave_out_part("the free-vortex wake (Wake_Mod 3): blade element momentum");
   text += "\n[aero]\nmodel = \"bem\"\ninduction = \"buhl\"\n";
   if (turbine.by_reynolds) {
     text += fmt::format("kinematic_viscosity_m2_s = {:.9g}\n", ad.number({"KinVisc"}, run.main.number({"KinVisc"})));

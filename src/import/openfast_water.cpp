@@ -29,7 +29,7 @@ std::string second_order(DeckImport& run, const Deck& hd, const With& with, cons
     if (kind < (pairs ? 10 : 7) || kind > 12)
       hd.fail(hd.find({key}), fmt::format("is {}: {} are known", kind, pairs ? "0, 10, 11 and 12" : "0 and 7 to 12"));
     if (still) {
-      run.leave_out(fmt::format("{} {}: there are no waves", key, kind));
+      run.leave_out_part(fmt::format("{} {}: there are no waves", key, kind));
       continue;
     }
     const std::string ending = fmt::format(".{}{}", kind, kind < 10 ? "" : drift[0] == '\0' ? "s" : "d");
@@ -67,7 +67,7 @@ std::string potential_flow(DeckImport& run, const Deck& hd, bool still) {
   else if (!still)
     run.copy(with(".3"));
   else
-    run.leave_out(name + ".3 is not there: the scene has no excitation, and no waves");
+    run.leave_out_part(name + ".3 is not there: the scene has no excitation, and no waves");
   const Eigen::Vector3d origin = potential_origin(hd);
   if (origin.norm() > 0.0) text += "point_m = " + toml_vector(origin) + "\n";
   if (hd.number({"PtfmRefztRot"}, 0.0) != 0.0) hd.fail(hd.find({"PtfmRefztRot"}), "is not 0: turned WAMIT axes are not known");
@@ -156,7 +156,8 @@ std::string coefficients(DeckImport& run, const std::vector<Member>& all, bool p
     if (!own.empty()) text += fmt::format("\n[[sea.coefficients]]\ncylinder = \"{}\"\n{}", m.name, own);
     if (potential && !m.potential) outside += (outside.empty() ? "" : ", ") + m.name;
   }
-  if (!outside.empty()) run.leave_out("buoyancy and inertia of members outside the potential flow (PropPot false): " + outside);
+  if (!outside.empty())
+    run.leave_out_part("buoyancy and inertia of members outside the potential flow (PropPot false): " + outside);
   return text;
 }
 
@@ -204,7 +205,7 @@ ImportedWater import_water(DeckImport& run, double depth, double water_density) 
   const Deck& waves = sea_state ? *sea_state : hd;
   refuse_unknown_water(hd, waves);
   const bool potential = hd.integer({"PotMod"}, 0) == 1;
-  if (hd.integer({"PotMod"}, 0) == 2) run.leave_out("FIT (PotMod 2)");
+  if (hd.integer({"PotMod"}, 0) == 2) run.leave_out_part("FIT (PotMod 2)");
   run.leave_out_unless(
       hd, {{"PtfmRefY", "the yaw about which the loads are taken"}, {"AMMod", "the height up to which added mass counts"}});
   if (waves.flag({"WaveNDAmp"}, false))

@@ -76,11 +76,11 @@ std::string second_order(DeckImport& run, const Deck& waves, int model, const st
   if (why.empty() && (low_s > 2.0 * peak || high_s < 2.0 * peak || low_d > 0.5 * peak || high_d < 0.5 * peak))
     why = "its cut-offs leave out pairs of the spectrum's peak";
   if (!why.empty()) {
-    run.leave_out(fmt::format("waves of second order ({}): {}",
-                              differences && sums ? "WvDiffQTF, WvSumQTF"
-                              : sums              ? "WvSumQTF"
-                                                  : "WvDiffQTF",
-                              why));
+    run.leave_out_part(fmt::format("waves of second order ({}): {}",
+                                   differences && sums ? "WvDiffQTF, WvSumQTF"
+                                   : sums              ? "WvSumQTF"
+                                                       : "WvDiffQTF",
+                                   why));
     return "";
   }
   if (low_d > 0.0 || high_d < limit)
@@ -112,7 +112,7 @@ std::string import_waves(DeckImport& run, const Deck& waves, const std::string& 
   const std::string bound = second_order(run, waves, model, linear);
   if (model == 5) return waves_of_file(run, waves);
   if (model != 1 && model != 2 && model != 10) {
-    run.leave_out(fmt::format("waves of WaveMod {}", model));
+    run.leave_out_part(fmt::format("waves of WaveMod {}", model));
     return "";
   }
   // The deck's waves have their whole height from its first step on.
@@ -147,7 +147,7 @@ std::string import_waves(DeckImport& run, const Deck& waves, const std::string& 
 std::string import_current(DeckImport& run, const Deck& waves, double depth) {
   if (waves.integer({"CurrMod"}, 0) == 0) return "";
   if (waves.integer({"CurrMod"}, 0) != 1) {
-    run.leave_out("the current of a routine (CurrMod 2)");
+    run.leave_out_part("the current of a routine (CurrMod 2)");
     return "";
   }
   const auto part = [&](const char* speed, const char* direction, double otherwise) {

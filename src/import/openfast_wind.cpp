@@ -141,7 +141,7 @@ std::string import_wind(DeckImport& run, const Deck& w, double hub_height) {
   } else if (type == 2) {
     text += uniform_wind(run, w, hub_height);
   } else {
-    run.leave_out(fmt::format("wind of WindType {}: there is none in the scene", type));
+    run.leave_out_part(fmt::format("wind of WindType {}: there is none in the scene", type));
     text += "speed_m_s = 0.0\n";
   }
   // InflowWind counts clockwise seen from above, the scene from x towards y. Rows of uniform wind have it in them.

@@ -11,6 +11,7 @@
 
 #include "kernels/base/constants.hpp"
 #include "kernels/base/interpolation.hpp"
+#include "src/import/deck_import.hpp"
 #include "src/import/windio_file.hpp"
 #include "src/import/windio_tower.hpp"
 
@@ -352,6 +353,7 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
         "tower.csv: mass and stiffness of the tower, for [beams.NAME] properties of a scene with the masses on it");
   if (tower == ImportedTower::rigid && layered) result.left_out.push_back("layers of the tower's wall (--rigid-tower)");
   tell_left_out(top, blade, foils, result.left_out);
+  if (!result.left_out.empty()) std::ofstream(result.scene, std::ios::app) << "\n[output]\n" << toml_remarks(result.left_out, {});
   return result;
 }
 

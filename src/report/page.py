@@ -35,7 +35,13 @@ def verdict_of(run, name=""):
     checks = verdict.health(run)
     level, headline = verdict.headline(checks)
     return {"name": name, "level": level, "headline": headline, "checks": checks, "what": verdict.what_ran(run),
-            "answers": verdict.answers(run), "span": _span(run)}
+            "answers": verdict.answers(run), "span": _span(run), "caveats": _remarks(run, "caveats")}
+
+
+def _remarks(run, key):
+    """What the scene says it lacks: output.caveats or output.notes."""
+    said = _value(run.scene, "output", key)
+    return [str(text) for text in said] if isinstance(said, list) else []
 
 
 def _span(run):
@@ -139,6 +145,8 @@ def model(run):
     else:
         say("Time", unit("time", "end_s", "to ", "s"), unit("time", "window_s", "windows of ", "s"), _value(scene, "time", "integrator") if bodies else "")
     say("Coupling", _value(scene, "coupling", "scheme"))
+    say("Not modelled", *_remarks(run, "caveats"))
+    say("Notes", *_remarks(run, "notes"))
     return "<dl class=\"model\">" + "".join(f"<div><dt>{escape(t)}</dt><dd>{escape(d)}</dd></div>" for t, d in items) + "</dl>" if items else ""
 
 

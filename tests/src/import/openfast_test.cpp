@@ -190,3 +190,14 @@ TEST_CASE("a controller library of a deck is the scene's, with its drive train a
   deck.replace("srv.dat", "90 Ptch_Max", "wide Ptch_Max");
   CHECK(deck.refusal().find("srv.dat:11") != std::string::npos);
 }
+
+TEST_CASE("what a deck has and the scene has not is in the scene, parts of the model apart from the rest", "[import][fast]") {
+  SmallDeck deck = deck_that_bends();
+  deck.replace("main.fst", "0 CompServo", "1 CompServo");
+  const coupling::Scenario s = deck.scenario(decks::ImportedTower::rigid);
+  CHECK(has_word(s.output.caveats, "bending of the tower: it is rigid"));
+  CHECK(has_word(s.output.caveats, "ServoDyn (GenDOF is off)"));
+  CHECK(has_word(s.output.notes, "the phases of the irregular waves"));
+  CHECK_FALSE(has_word(s.output.notes, "ServoDyn (GenDOF is off)"));
+  CHECK(s.output.caveats.size() + s.output.notes.size() == deck.import(decks::ImportedTower::rigid).left_out.size());
+}

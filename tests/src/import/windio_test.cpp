@@ -61,6 +61,7 @@ TEST_CASE("a windIO turbine is carried over with its axes and polars", "[fast]")
   std::ofstream(folder.path / "t.yaml") << small_turbine;
   const auto imported = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
   const std::string planform = text_of(folder.path / "out/planform.csv"), turbine = text_of(folder.path / "out/turbine.toml");
+  CHECK(text_of(imported.scene).find("[output]\nnotes = [\n") != std::string::npos);
   CHECK(planform.find("\n2,3,11.4591559,100,0,-0\n") != std::string::npos);
   CHECK(planform.find("\n52,1,0,20,-2,-0.5\n") != std::string::npos);
   CHECK(turbine.find("blades = 3\nhub_radius_m = 2\nprecone_deg = 5.72957795\n") != std::string::npos);

@@ -759,6 +759,18 @@ class PartsTest(unittest.TestCase):
                 self.assertTrue(verdict.what_ran(run).startswith(what), verdict.what_ran(run))
                 self.assertEqual(verdict.answers(run)[0][0], motion)
 
+    def test_what_a_scene_lacks_stands_beside_the_verdict_and_what_else_it_notes_under_what_was_modelled(self):
+        remarks = "[output]\ncaveats = ['SubDyn: what stands on it is < fixed']\nnotes = ['the seed is another']\n"
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), rows=200, scene=synthetic_run.SCENE + remarks)
+            run = RunData(pathlib.Path(folder))
+            text = str(page.build([run]))
+            status = text.partition('<div class="status')[2].partition('<ul class="health">')[0]
+            self.assertIn("Not modelled: SubDyn: what stands on it is &lt; fixed.", status)
+            self.assertNotIn("the seed is another", status)
+            for said in ("SubDyn: what stands on it is &lt; fixed", "the seed is another"):
+                self.assertIn(said, page.model(run))
+
     def test_a_body_that_turns_with_a_rotor_has_no_key_figures(self):
         t = 0.1 * np.arange(400)
         spin = (60.0 * t + 180.0) % 360.0 - 180.0
