@@ -63,9 +63,23 @@ std::optional<double> number_in(std::string word) {
   return std::nullopt;
 }
 
+std::string beside_but_for_case(const std::filesystem::path& file) {
+  const auto small = [](std::string name) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return name;
+  };
+  std::error_code error;
+  if (std::filesystem::exists(file, error)) return "";
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (small(entry->path().filename().string()) == small(file.filename().string()))
+      return fmt::format(": {} stands beside, and case counts in names of files", entry->path().filename().string());
+  return "";
+}
+
 Deck::Deck(const std::filesystem::path& file, const std::string& comments) : file_(file) {
   std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) fail(std::nullopt, "cannot be read");
+  if (!in || std::filesystem::is_directory(file)) fail(std::nullopt, "cannot be read" + beside_but_for_case(file));
   std::string text;
   for (int number = 1; std::getline(in, text); ++number) {
     std::vector<std::string> words = split(text.substr(0, text.find_first_of(comments)));
@@ -113,19 +127,33 @@ double Deck::to_number(const std::string& word, std::size_t line) const {
 double Deck::number(const std::vector<std::string>& names) const {
   const auto line = find(names);
   if (!line) fail(std::nullopt, fmt::format("has no line for {}", fmt::join(names, " or ")));
-  return to_number(lines_[*line].words[0], *line);
+  return value_of(names, *line);
 }
 
 double Deck::number(const std::vector<std::string>& names, double otherwise) const {
   const auto line = find(names);
   if (!line || plain(lines_[*line].words[0]) == "default") return otherwise;
-  return to_number(lines_[*line].words[0], *line);
+  return value_of(names, *line);
+}
+
+double Deck::value_of(const std::vector<std::string>& names, std::size_t line) const {
+  const std::string& word = lines_[line].words[0];
+  const std::optional<double> value = number_in(word);
+  if (!value) fail(line, fmt::format("{}: '{}' is not a number", name_in(names, line), word));
+  return *value;
+}
+
+std::string Deck::name_in(const std::vector<std::string>& names, std::size_t line) const {
+  for (const std::string& name : names)
+    for (const std::string& word : lines_[line].words)
+      if (plain(word) == plain(name)) return word;
+  return names[0];
 }
 
 int Deck::integer(const std::vector<std::string>& names, int otherwise) const {
   const auto line = find(names);
   if (!line || plain(lines_[*line].words[0]) == "default") return otherwise;
-  const double value = to_number(lines_[*line].words[0], *line);
+  const double value = value_of(names, *line);
   if (value != std::floor(value) || std::abs(value) > 1e9)
     fail(line, fmt::format("'{}' is not a whole number", lines_[*line].words[0]));
   return int(value);
@@ -135,7 +163,7 @@ void Deck::require(std::initializer_list<Range> ranges) const {
   for (const Range& r : ranges) {
     const auto line = find({r.name});
     if (!line || plain(lines_[*line].words[0]) == "default") continue;
-    const double value = to_number(lines_[*line].words[0], *line);
+    const double value = number({r.name});
     if (value <= r.high && (r.above ? value > r.low : value >= r.low)) continue;
     const std::string wanted = std::isfinite(r.high) ? fmt::format("{:g} to {:g}", r.low, r.high)
                                                      : fmt::format("{} {:g}", r.above ? "more than" : "at least", r.low);
@@ -198,6 +226,12 @@ std::size_t Deck::column(std::size_t heading, const std::vector<std::string>& na
   for (const std::string& name : names)
     for (std::size_t w = 0; w < row.size(); ++w)
       if (plain(row[w]) == plain(name)) return w;
+  // Versions add the module: "MemberID_HydC".
+  std::vector<std::size_t> longer;
+  for (const std::string& name : names)
+    for (std::size_t w = 0; w < row.size(); ++w)
+      if (row[w].starts_with(name + "_")) longer.push_back(w);
+  if (longer.size() == 1) return longer[0];
   fail(heading, fmt::format("has no column {}", fmt::join(names, " or ")));
 }
 

@@ -25,6 +25,9 @@ inline Range angle(const char* name) { return {name, -360.0, 360.0}; }  ///< [de
 /// Nothing where the word is no number.
 std::optional<double> number_in(std::string word);
 
+/// ": NAME stands beside ..." where a file is not there but one is whose name differs in capitals alone; else empty.
+std::string beside_but_for_case(const std::filesystem::path& file);
+
 class Deck {
  public:
   /// Throws scene::SceneError where the file cannot be read. Where there are marks of comments, what a line has from one of these
@@ -64,11 +67,14 @@ class Deck {
   /// Lines `first` up to `last`, without the last, as a deck of their own.
   Deck part(std::size_t first, std::size_t last) const;
 
+  /// Which of the names of several versions a line has, as it has it.
+  std::string name_in(const std::vector<std::string>& names, std::size_t line) const;
   double to_number(const std::string& word, std::size_t line) const;
   [[noreturn]] void fail(std::optional<std::size_t> line, const std::string& what) const;
 
  private:
   Deck() = default;
+  double value_of(const std::vector<std::string>& names, std::size_t line) const;
   struct Line {
     int number;
     std::vector<std::string> words;

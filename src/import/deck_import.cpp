@@ -13,7 +13,7 @@ namespace spindrift::decks {
 
 void DeckImport::copy(const std::filesystem::path& file) const {
   if (!std::filesystem::exists(file))
-    main.fail(std::nullopt, fmt::format("names {}, which is not there", file.string()));
+    main.fail(std::nullopt, fmt::format("names {}, which is not there{}", file.string(), beside_but_for_case(file)));
   const std::filesystem::path copy = folder / file.filename();
   if (std::error_code absent; std::filesystem::equivalent(file, copy, absent)) return;  // a scene beside its deck
   std::filesystem::copy_file(file, copy, std::filesystem::copy_options::overwrite_existing);

@@ -126,6 +126,25 @@ ImportedRotor bending_keys(DeckImport& run, const Deck& ed, const RotorFrame& ro
 
 }  // namespace
 
+namespace {
+
+/// FAST 8 has flags where OpenFAST has models; models of wakes beyond 3 are those of other programs' own versions.
+void refuse_other_versions(const Deck& ad) {
+  if (const auto line = ad.find({"TwrShadow"}); line && !number_in(ad.words(*line)[0]))
+    ad.fail(line, fmt::format(
+                      "TwrShadow is '{}', as in AeroDyn of FAST 8: decks of OpenFAST, versions 3 to 5, have 0 to 2 and are read",
+                      ad.words(*line)[0]));
+  const std::vector<std::string> names{"Wake_Mod", "WakeMod"};
+  const int wake = ad.integer(names, 1);
+  if (wake >= 0 && wake <= 3) return;
+  const auto line = ad.find(names);
+  ad.fail(line,
+          fmt::format("{} is {}: 0 to 3 are known; give 1 for blade element momentum, 2 (or DBEMT_Mod) for its dynamic wake",
+                      ad.name_in(names, *line), wake));
+}
+
+}  // namespace
+
 ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& rotor, const ImportedSystem& system,
                            ImportedBlades blades) {
   const bool blows = run.main.integer({"CompInflow"}, 0) == 1, aero = run.main.integer({"CompAero"}, 0) == 2;
@@ -138,9 +157,8 @@ ImportedRotor import_rotor(DeckImport& run, const Deck& ed, const RotorFrame& ro
     return {};
   }
   const Deck ad(run.main.path({"AeroFile"}));
-  ad.require({{"Wake_Mod", 0, 3},
-              {"WakeMod", 0, 3},
-              {"TwrPotent", 0, 2},
+  refuse_other_versions(ad);
+  ad.require({{"TwrPotent", 0, 2},
               {"TwrShadow", 0, 2},
               {"DBEMT_Mod", -1, 3},
               {"UA_Mod", 0, 7},

@@ -182,7 +182,7 @@ Site read_site(const Key& top) {
   const Key train = top.at("components").at("nacelle").at("drivetrain"), air = top.at("environment");
   return {.hub_height = top.at("assembly").at("hub_height").positive(),
           .overhang = train.at("overhang").positive(),
-          .tilt = train.at("uptilt").angle(),
+          .tilt = train.at(train.has("uptilt_angle") ? "uptilt_angle" : "uptilt").angle(),
           .density = air.at("air_density").positive(),
           .viscosity = air.at("air_dyn_viscosity").positive()};
 }

@@ -317,3 +317,24 @@ TEST_CASE("a deck with something wrong is refused by file and line", "[import][f
   CAPTURE(file, from, to);
   CHECK(deck.refusal().find(said) != std::string::npos);
 }
+
+TEST_CASE("other versions and names of other case are refused by what the deck has", "[import][fast]") {
+  struct Case {
+    const char *file, *from, *to, *said;
+  };
+  const auto c =
+      GENERATE(Case{"ad.dat", "1 Wake_Mod", "11 WakeMod", "ad.dat:2: WakeMod is 11: 0 to 3 are known; give 1"},
+               Case{"ad.dat", "0 TwrShadow", "False TwrShadow",
+                    "ad.dat:4: TwrShadow is 'False', as in AeroDyn of FAST 8: decks of OpenFAST, versions 3 to 5"},
+               Case{"ed.dat", "60 TowerHt", "high TowerHt", "TowerHt: 'high' is not a number"},
+               Case{"main.fst", "\"ad.dat\" AeroFile", "\"AD.dat\" AeroFile", "AD.dat: cannot be read: ad.dat stands beside"});
+  SmallDeck deck;
+  deck.replace(c.file, c.from, c.to);
+  CHECK_THAT(deck.refusal(), Catch::Contains(c.said));
+}
+
+TEST_CASE("a column whose name has the module behind it is found", "[import][fast]") {
+  SmallDeck deck;
+  deck.replace("hd.dat", "\nMemberID MJointID1", "\nMemberID_HydC MJointID1");
+  CHECK(deck.refusal().empty());
+}

@@ -73,6 +73,13 @@ TEST_CASE("a windIO turbine is carried over with its axes and polars", "[fast]")
         std::string::npos);  // down the wind and down
 }
 
+TEST_CASE("the shaft's tilt has the one name or the other", "[fast]") {
+  const WindioFolder folder;
+  std::ofstream(folder.path / "t.yaml") << replaced("uptilt: 0.05", "uptilt_angle: 0.05");
+  const auto imported = spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out");
+  CHECK(text_of(imported.scene).find("axis = [0.99875026, 0.0, -0.0499791693]\n") != std::string::npos);
+}
+
 TEST_CASE("all Reynolds numbers of an airfoil are carried over, with the viscosity of the air", "[fast]") {
   // In the file the larger one first; the tip's 0.4 at 1 million and 0.9 at 4 million.
   const std::string other =
