@@ -77,12 +77,14 @@ bool require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
     if (!io::CheckpointSeries(world, directory.checkpoints(), 1).newest()) throw io::only_damaged(directory.checkpoints());
     return false;
   }
+  const scene::Identity first = scene::Identity::parsed(saved);
+  const std::vector<scene::Difference> changed = differences(first, now, free_at_restart);
   for (const std::string& key : arguments.allowed)
-    if (key != "history.csv" && !names_part_of(now, key) && !names_part_of(scene::Identity::parsed(saved), key))
+    if (key != "history.csv" && !names_part_of(now, key) && !names_part_of(first, key))
       throw io::InputError("--allow-change " + key +
                            ": neither this scene nor that of the first run has a key or file of that name");
   if (!arguments.allowed.empty())
-    for (const scene::Difference& d : differences(scene::Identity::parsed(saved), now, free_at_restart))
+    for (const scene::Difference& d : changed)
       if (is_of_scheme_in_time(d))
         throw io::InputError(
             fmt::format("--restart: {}: was {}, is {}: a checkpoint has the steps that its own scheme needs, so "
@@ -90,8 +92,8 @@ bool require_same_run(io::RunDirectory& directory, const scene::Identity& now, c
                         d.what, d.before, d.now));
   std::vector<std::string> free = free_at_restart;
   free.insert(free.end(), arguments.allowed.begin(), arguments.allowed.end());
-  const std::vector<scene::Difference> all = differences(scene::Identity::parsed(saved), now, free);
-  if (all.empty()) return !differences(scene::Identity::parsed(saved), now, free_at_restart).empty();
+  const std::vector<scene::Difference> all = differences(first, now, free);
+  if (all.empty()) return !changed.empty();
   std::string text = fmt::format("--restart: {} of this scene {} not as in the run in {}:", all.size() == 1 ? "a part" : "parts",
                                  all.size() == 1 ? "is" : "are", directory.path().string());
   for (const scene::Difference& d : all) text += fmt::format("\n  {}: was {}, is {}", d.what, d.before, d.now);

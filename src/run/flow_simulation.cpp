@@ -221,7 +221,8 @@ bool FlowSimulation::made_window(std::int64_t window) {
 
 /// Whether what comes to the end of `window` stands; else it is to be made again with more steps.
 bool FlowSimulation::holds_tolerance(std::int64_t window) {
-  if (!steps_ || steps_->refine(window_.error)) return !steps_;
+  if (!steps_) return true;
+  if (steps_->refine(window_.error)) return false;
   if (steps_->too_large(window_.error) && ++above_tolerance_ == 1)
     spdlog::warn(
         "air: the window to t = {:.6g} s has an error in time of {:.2g} in {} steps, {:.2g} is asked for "
