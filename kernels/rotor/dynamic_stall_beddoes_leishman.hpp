@@ -126,18 +126,14 @@ struct DynamicStallBeddoesLeishman {
     const double normal = now.attached * s.separation + now.separated * (1.0 - s.separation) + s.impulse + s.vortex;
     const double suction = circulatory * std::tan(near_zero_lift(effective));
     // What was lost at a larger angle than now is at most all the suction that there is.
-    const double chordwise = suction - std::min(s.loss, std::max(suction, loss(effective, beta, polar))), sine = std::sin(attack),
-                 cosine = std::cos(attack);
+    const double lost = s.loss > suction ? std::min(s.loss, std::max(suction, loss(effective, beta, polar))) : s.loss;
+    const double chordwise = suction - lost, sine = std::sin(attack), cosine = std::cos(attack);
     const SectionForce moving{normal * cosine + chordwise * sine, drag_0 + normal * sine - chordwise * cosine};
     return {steady.lift + (1.0 - out) * (moving.lift - steady.lift), steady.drag + (1.0 - out) * (moving.drag - steady.drag)};
   }
 
  private:
-  /// 0 where the model holds, 1 where the flow is separated however it came there.
-  double away(double attack) const {
-    const double off = std::abs(within_half_turn(attack - zero_lift));
-    return std::clamp((off - DynamicStallOye::fade_from) / (DynamicStallOye::fade_to - DynamicStallOye::fade_from), 0.0, 1.0);
-  }
+  double away(double attack) const { return DynamicStallOye::away(std::abs(within_half_turn(attack - zero_lift))); }
   /// Full suction is that of small angles: its tangent ends at one radian from zero lift.
   double near_zero_lift(double attack) const { return std::clamp(attack, zero_lift - 1.0, zero_lift + 1.0); }
   static double lagged(double value, double from, double to, double way, double lag) {

@@ -36,6 +36,9 @@ struct DynamicStallOye {
     return found;
   }
 
+  /// 0 where dynamic stall holds, so far from zero lift, 1 where the flow is separated however it came there.
+  static double away(double off) { return std::clamp((off - fade_from) / (fade_to - fade_from), 0.0, 1.0); }
+
   double attached(double attack) const { return slope * (attack - zero_lift); }
 
   /// f of the polar's lift: 1 attached, 0 separated to the leading edge.
@@ -48,10 +51,9 @@ struct DynamicStallOye {
 
   /// Lift where the flow separates at f, and the polar has `lift`.
   double lift(double attack, double lift, double f) const {
-    const double still = separation(attack, lift), line = attached(attack);
-    const double away = std::clamp((std::abs(attack - zero_lift) - fade_from) / (fade_to - fade_from), 0.0, 1.0);
+    const double still = separation(attack, lift), line = attached(attack), out = away(std::abs(attack - zero_lift));
     const double separated = still < 0.9999 ? (lift - still * line) / (1.0 - still) : 0.5 * lift;
-    return lift + (1.0 - away) * (f - still) * (line - separated);
+    return lift + (1.0 - out) * (f - still) * (line - separated);
   }
 
   /// f after h in the relative speed [m/s], over which the static one went from `before` to `now`; so many chords pass in the
