@@ -84,13 +84,21 @@ constexpr TimeWeights bdf3(double ratio = 1.0, double ratio_before = 1.0) {
   return {now, -(now + older + oldest), older, oldest};
 }
 
+/// Of this order, 1 to 3.
+constexpr TimeWeights backward_difference(int order, double ratio = 1.0, double ratio_before = 1.0) {
+  return order > 2 ? bdf3(ratio, ratio_before) : order > 1 ? bdf2(ratio) : bdf1;
+}
+
 /// Volume per time that a face sweeps [m3/s], so that a uniform state stays uniform under these weights: `swept` in this step,
-/// `swept_old` in the step before. Divided by the face's area it is the normal speed that fluxes use.
-constexpr double swept_rate(TimeWeights w, double swept, double swept_old, double dt) {
+/// `swept_old` in the step before. Divided by the face's area it is the normal speed that fluxes use. Rates of
+/// rigid motion (vectors) are made of what they came to in these steps likewise.
+template <class T>
+constexpr T swept_rate(TimeWeights w, const T& swept, const T& swept_old, double dt) {
   return (w.now * swept - w.older * swept_old) / dt;
 }
 /// The same of third order; `swept_older` two steps before.
-constexpr double swept_rate(TimeWeights w, double swept, double swept_old, double swept_older, double dt) {
+template <class T>
+constexpr T swept_rate(TimeWeights w, const T& swept, const T& swept_old, const T& swept_older, double dt) {
   return (w.now * swept - (w.older + w.oldest) * swept_old - w.oldest * swept_older) / dt;
 }
 

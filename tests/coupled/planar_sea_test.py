@@ -10,6 +10,8 @@ from running import ROOT, Folder, columns, spindrift
 
 SCENE = ROOT / "inputs/validation/floating_box/floating_box.toml"
 SHORT = ["time.end_s=0.4", "sea.initial.settle_s=0.1", "sea.particles.spacing_m=0.05"]
+BEACH = ["time.end_s=3.0", "time.window_s=0.01", "sea.particles.spacing_m=0.015", "sea.tank.x_m=[0.0, 6.0]", "sea.tank.bed_m=[[0.0, -0.3], [6.0, 0.0]]",
+         "sea.water=[{low_m=[4.5, -1.0, -0.3], high_m=[4.53, 1.0, -0.045]}]"]   # four particles on a dry slope of 1:20
 ACROSS = ["bodies.box.forces=[{point_m=[0.1, 0.2, 0.1], force_N=[0.0, 50.0, 20.0], moment_N_m=[3.0, 0.0, 4.0]}]"]
 
 
@@ -39,27 +41,6 @@ spacing_m = 0.05
 [sea.tank]
 x_m = [-2.0, 2.0]
 top_m = 0.3
-"""
-LONE = """
-[time]
-end_s = 3.0
-window_s = 0.01
-[environment]
-gravity_m_s2 = 9.81
-water_density_kg_m3 = 1000.0
-water_depth_m = 0.3
-[sea]
-model = "sph"
-[sea.particles]
-dimensions = "2"
-spacing_m = 0.015
-[sea.tank]
-x_m = [0.0, 6.0]
-top_m = 0.3
-bed_m = [[0.0, -0.3], [6.0, 0.0]]
-[[sea.water]]
-low_m = [4.5, -1.0, -0.3]
-high_m = [4.53, 1.0, -0.045]
 """
 DRIVEN = """
 [joints.rail]
@@ -162,8 +143,8 @@ class Planar(Folder):
     def test_lone_water_on_a_wall_makes_no_energy(self):
         """Particles that slide down a beach, with no water about them whose viscosity would calm them: they bounced ever higher."""
         scene = self.path / "lone.toml"
-        scene.write_text(LONE)
-        done = spindrift("run", scene, "--out", self.path / "lone", "--quiet", "--no-report")
+        scene.write_text(TANK.format(depth=0.3))
+        done = spindrift("run", scene, "--out", self.path / "lone", "--quiet", "--no-report", settings=BEACH)
         self.assertEqual(done.returncode, 0, done.stderr)
         found = columns(self.path / "lone/history.csv")
         energy = sum(found[f"sea.{kind}_energy_J"] for kind in ("kinetic", "potential", "compression"))

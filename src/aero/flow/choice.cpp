@@ -38,7 +38,7 @@ Choice choose_preconditioner(FlowSolver& solver, MPI_Comm comm, int threads) {
   for (const char* name : {"block_ilu", "coarse"}) {
     FlowSetting s = solver.setting();
     s.preconditioner = name;
-    if (s.time_order > 0) s.held_rate = (s.time_order > 2 ? 11.0 / 6.0 : s.time_order > 1 ? 1.5 : 1.0) / s.dt;
+    if (s.time_order > 0) s.held_rate = backward_difference(s.time_order).now / s.dt;
     s.time_order = 0, s.time_tolerance.reset();
     s.march.cfl_start = s.march.cfl_max = std::min(s.march.cfl_max, trial_cfl);
     s.march.max_steps = 1, s.march.drop = 0.0, s.march.absolute = 0.0, s.march.matrix_free_below = 0.0;

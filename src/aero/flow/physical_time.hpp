@@ -23,14 +23,12 @@ struct PhysicalTime {
   TimeWeights weights{};                     ///< of the step that is being made
 
   bool unsteady() const { return order > 0; }
-  /// Past levels that the step that is being made has.
-  int past() const { return int(std::min<std::int64_t>(levels, steps)); }
   /// Lengths of steps that the next one needs.
   int lengths() const { return std::max(1, levels - 1); }
   /// A step begins: weights by how much past there is.
   void begin_step() {
     const int reach = int(std::min<std::int64_t>(order, steps + 1));
-    weights = reach > 2 ? bdf3(dt / before[0], before[0] / before[1]) : reach > 1 ? bdf2(dt / before[0]) : bdf1;
+    weights = backward_difference(reach, reach > 1 ? dt / before[0] : 1.0, reach > 2 ? before[0] / before[1] : 1.0);
     ago[0] = dt;
     for (std::size_t n = 1; n < ago.size(); ++n) ago[n] = ago[n - 1] + before[n - 1];
     std::copy_backward(before.begin(), before.end() - 1, before.end());

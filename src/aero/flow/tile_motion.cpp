@@ -126,11 +126,11 @@ void TileMotion::move(FlowTile& tile) const {
   const RigidRate now = change(pose(before_, tile).map, pose(now_, tile).map), old = std::exchange(g.history->over_step, now);
   if (time_.order > 2) {
     const RigidRate older = std::exchange(g.history->over_step_before, old);
-    g.rate.velocity = (w.now * now.velocity - (w.older + w.oldest) * old.velocity - w.oldest * older.velocity) / time_.dt;
-    g.rate.omega = (w.now * now.omega - (w.older + w.oldest) * old.omega - w.oldest * older.omega) / time_.dt;
+    g.rate.velocity = swept_rate(w, now.velocity, old.velocity, older.velocity, time_.dt);
+    g.rate.omega = swept_rate(w, now.omega, old.omega, older.omega, time_.dt);
   } else {
-    g.rate.velocity = (w.now * now.velocity - w.older * old.velocity) / time_.dt;
-    g.rate.omega = (w.now * now.omega - w.older * old.omega) / time_.dt;
+    g.rate.velocity = swept_rate(w, now.velocity, old.velocity, time_.dt);
+    g.rate.omega = swept_rate(w, now.omega, old.omega, time_.dt);
   }
   fill_boundary_geometry(g, arrays_.grid.tiling().boundary(tile.index));
 }

@@ -51,7 +51,7 @@ class WindowSteps {
  public:
   static constexpr int most = 16;
   /// Begins with the most: the first steps have no past, and are of lower order.
-  WindowSteps(double tolerance, int order, int count = most) : tolerance_(tolerance), order_(order), count_(count) {}
+  WindowSteps(double tolerance, int order) : tolerance_(tolerance), order_(order) {}
 
   int count() const { return count_; }
   void set_count(int count) { count_ = count; }
@@ -63,7 +63,7 @@ class WindowSteps {
 
  private:
   double tolerance_;
-  int order_, count_;
+  int order_, count_ = most;
 };
 
 }  // namespace spindrift::aero

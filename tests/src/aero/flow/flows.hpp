@@ -25,6 +25,18 @@ inline FlowSetting air(double mach, Eigen::Vector3d direction = Eigen::Vector3d:
   return s;
 }
 
+/// The stream and, round the middle of a plane unit box, a vortex whose fastest air turns at half the stream's speed so far from
+/// there [m]: without gradients of entropy.
+inline gas::Primitive<double> vortex_in_stream(const FlowSetting& s, const Eigen::Vector3d& x, double radius) {
+  const double dx = (x[0] - 0.5) / radius, dz = (x[2] - 0.5) / radius,
+               swirl = 0.5 * s.speed * std::exp(0.5 * (1.0 - dx * dx - dz * dz));
+  gas::Primitive<double> q = s.stream;
+  q.u += swirl * dz, q.w -= swirl * dx;
+  q.T = -0.5 * swirl * swirl / s.gas.cp();
+  q.p = s.gas.pressure_reference * (std::pow(1.0 + q.T / s.gas.temperature_reference, 3.5) - 1.0);
+  return q;
+}
+
 /// Largest deviation of the flow from its uniform stream: pressure and temperature over the air's, velocity over the scale of
 /// speed. A number that is none deviates without bound.
 inline double stream_deviation(const FlowSolver& solver) {

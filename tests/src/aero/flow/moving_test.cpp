@@ -188,15 +188,7 @@ std::vector<double> vortex_on_moving_grid(int steps, int order, bool moving, int
   s.march = {.cfl_start = 20.0, .drop = order > 2 ? 1e-9 : 1e-7, .max_steps = 60, .krylov_drop = 0.01, .matrix_free_below = 2.0};
   const BoxOptions box{.ni = 24, .nj = 24, .nk = 1};
   Case c(planar_box(box), s, {}, {.planar_across = 24, .planar_normal = 24}, 1, 0, true);
-  c.solver->start([&](const Vector3d& x) {
-    const double dx = (x[0] - 0.5) / 0.15, dz = (x[2] - 0.5) / 0.15,
-                 swirl = 0.5 * s.speed * std::exp(0.5 * (1.0 - dx * dx - dz * dz));
-    gas::Primitive<double> q = s.stream;
-    q.u += swirl * dz, q.w -= swirl * dx;
-    q.T = -0.5 * swirl * swirl / s.gas.cp();
-    q.p = s.gas.pressure_reference * (std::pow(1.0 + q.T / s.gas.temperature_reference, 3.5) - 1.0);
-    return q;
-  });
+  c.solver->start([&](const Vector3d& x) { return vortex_in_stream(s, x, 0.15); });
   c.prepare();
   double begin = 0.0;
   for (const double phase : ends_of_steps(moving ? steps : 0, halvings)) {

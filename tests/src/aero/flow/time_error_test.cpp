@@ -24,15 +24,7 @@ Case carried_vortex(int order, double dt, int ranks = 1, int rank = 0) {
   BoxOptions box{.ni = 16, .nj = 16, .nk = 1};
   box.periodic = {true, true, false};
   Case c(planar_box(box), s, {}, {.planar_across = 8, .planar_normal = 8}, ranks, rank);
-  c.solver->start([&](const Vector3d& x) {
-    const double dx = (x[0] - 0.5) / 0.2, dz = (x[2] - 0.5) / 0.2,
-                 swirl = 0.5 * s.speed * std::exp(0.5 * (1.0 - dx * dx - dz * dz));
-    gas::Primitive<double> q = s.stream;
-    q.u += swirl * dz, q.w -= swirl * dx;
-    q.T = -0.5 * swirl * swirl / s.gas.cp();
-    q.p = s.gas.pressure_reference * (std::pow(1.0 + q.T / s.gas.temperature_reference, 3.5) - 1.0);
-    return q;
-  });
+  c.solver->start([&](const Vector3d& x) { return vortex_in_stream(s, x, 0.2); });
   c.prepare(ranks > 1 ? MPI_COMM_WORLD : MPI_COMM_SELF);
   return c;
 }
