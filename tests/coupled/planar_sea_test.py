@@ -151,6 +151,14 @@ class Planar(Folder):
         self.assertLess((energy - energy[0]).max(), 0.02 * abs(energy[0]))
         self.assertGreater(found["sea.dissipated_J"][-1], -0.02 * abs(energy[0]))
 
+    def test_drops_that_lie_still_are_not_stopped_for_microjoules(self):
+        scene = self.path / "lone.toml"
+        scene.write_text(TANK.format(depth=0.3))
+        for walls in ("dynamic", "extrapolated_no_slip"):
+            with self.subTest(walls):
+                done = spindrift("run", scene, "--out", self.path / walls, "--quiet", "--no-report", settings=[*BEACH, f"sea.particles.walls={walls}"])
+                self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_sound_is_twenty_times_the_speed_of_a_fall_on_a_rail_to_low_water(self):
         said = spindrift("check", SCENE.parents[1] / "cylinder_drop/cylinder_drop.toml",
                          settings=["sea.water=[{low_m=[-0.6, -1.0, -0.3], high_m=[0.6, 1.0, -0.1]}]",

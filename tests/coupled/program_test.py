@@ -650,11 +650,17 @@ model = "morison"
         self.assertIn(words, self.buoy(*wave, "waves.period_s=18.0"))
         self.assertNotIn("Ursell", self.buoy(*wave[1:], "waves.period_s=18.0", "waves.model=stream_function"))
 
+    BEYOND_CRITICAL = "sea.matrices=[{body='buoy',point_m=[0,0,-4],damping=[[0,0,0,0,0,0],[0,0,0,0,0,0],[0,0,1e7,0,0,0],[0,0,0,0,0,0],[0,0,0,0,0,0],[0,0,0,0,0,0]]}]"
+
     def test_modes_of_equal_name_are_numbered(self):
         self.assertRegex(self.buoy(), r"\n  heave of buoy  +period")
-        rows = ["[0,0,0,0,0,0]", "[0,0,0,0,0,0]", "[0,0,1e7,0,0,0]", *3 * ["[0,0,0,0,0,0]"]]
-        said = self.buoy("sea.matrices=[{body='buoy',point_m=[0,0,-4],damping=[" + ",".join(rows) + "]}]")   # beyond critical
+        said = self.buoy(self.BEYOND_CRITICAL)
         self.assertRegex(said, r"\n  heave of buoy \(2\) +rate -[^\n]*\n(.*\n)*  heave of buoy \(1\) +rate -")   # fastest first, counted from the slowest
+
+    def test_a_first_step_that_fails_is_told_and_has_its_cost(self):
+        said = self.buoy(self.BEYOND_CRITICAL)
+        self.assertIn("warning: the step from t = 0 s does not hold: bodies: loads or turns change faster than the step follows", said)
+        self.assertGreater(float(re.search(r"steps of (\S+) us", said).group(1)), 0.0)
 
     def test_an_unknown_column_is_told_with_those_that_may_be_meant(self):
         for asked, words in (("buoy.pich_deg", 'did you mean "buoy.pitch_deg"?'), ("spar.heave_m", "its columns begin with time_s, buoy."),
