@@ -1,5 +1,6 @@
 """The coupled system as a user runs it: a blade-resolved rotor on a floating platform, with an engineering sea and with one of particles.
 Same bits by threads, ranks, placements and restarts; starts from saved fluids; what is refused. Usage: coupled_system_test.py SPINDRIFT [CLASS...]"""
+import functools
 import json
 import os
 import subprocess
@@ -10,7 +11,7 @@ import unittest
 import numpy as np
 
 import field_files
-from running import AIR_OF_BLADES, DTU_IN_WIND, PROGRAM, ROOT, Runs, rows, trace_events
+from running import AIR_OF_BLADES, DTU_IN_WIND, PROGRAM, ROOT, Runs, held_up, rows, trace_events
 
 CASES = ROOT / "inputs/leble_barakos"
 
@@ -69,9 +70,8 @@ class System(Runs):
         return self.ended([*start, PROGRAM, "run", scene, "--quiet", "--no-report", "--out", self.path / name, *map(str, arguments), *given], threads,
                           code)
 
-    def ended(self, command, threads, code):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=900,
-                              env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+    def ended(self, command, threads, code, run=functools.partial(subprocess.run, capture_output=True, timeout=900)):
+        done = run(command, text=True, env={**os.environ, "OMP_NUM_THREADS": str(threads)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
@@ -97,12 +97,12 @@ class System(Runs):
 class Profile(System):
     SETTINGS = ["time.end_s=0.25", "time.window_s=0.05"]
 
-    def profiled(self, ranks, threads=1, start=()):
+    def profiled(self, ranks, threads=1, **more):
         (self.path / "scene.toml").write_text(PARTICLES)
         given = [word for s in self.SETTINGS for word in ("--set", s)]
-        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else start
+        start = [ROOT / "ci/mpirun", str(ranks)] if ranks > 1 else []
         begin = time.monotonic()
-        said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0)
+        said = self.ended([*start, PROGRAM, "profile", self.path / "scene.toml", "--windows", "3", "--out", self.path / "out", *given], threads, 0, **more)
         profile = json.loads((self.path / "out/profile.json").read_text())
         self.check_command(profile, time.monotonic() - begin)
         return said, profile
@@ -158,13 +158,7 @@ class Profile(System):
         self.assertIn("Profile of scene", (self.path / "out/profile.html").read_text())
 
     def test_on_one_core_there_is_no_gain_by_overlap_and_a_busy_computer_is_told(self):
-        core = str(min(os.sched_getaffinity(0)))
-        others = [subprocess.Popen(["taskset", "-c", core, sys.executable, "-c", "while True: pass"]) for _ in range(3)]
-        try:
-            said, profile = self.profiled(1, start=["taskset", "-c", core])
-        finally:
-            for other in others:
-                other.kill(), other.wait()
+        said, profile = self.profiled(1, run=held_up)
         self.assertIn("others used the computer: this run had ", said)
         self.assertIn("One core: air and sea alone take", said)
         self.assertNotIn("a gain of", said)

@@ -1,14 +1,17 @@
 """What the tests of the program share: the program under test (the first argument), the sources, a run of it, a folder of its own for each test.
 SPDX-License-Identifier: Apache-2.0"""
+import concurrent.futures
 import csv
 import functools
 import gzip
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import numpy
@@ -42,6 +45,17 @@ def spindrift(*arguments, settings=(), ranks=0, timeout=600, env=None, cwd=None)
     launcher = [ROOT / "ci/mpirun", ranks] if ranks else []
     words = [*launcher, PROGRAM, *arguments, *(word for text in settings for word in ("--set", text))]
     return subprocess.run([str(word) for word in words], capture_output=True, text=True, errors="replace", check=False, timeout=timeout, env=env, cwd=cwd)
+
+
+def held_up(words, text=True, env=None):
+    """A command of one process that is stopped for half of the time, as where other programs have its core; what it said."""
+    with subprocess.Popen([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=text, env=env) as process:
+        said = concurrent.futures.ThreadPoolExecutor(1).submit(process.stdout.read)
+        while process.poll() is None:
+            for what, seconds in ((signal.SIGSTOP, 0.02), (signal.SIGCONT, 0.02)):
+                process.send_signal(what)
+                time.sleep(seconds)
+        return subprocess.CompletedProcess(words, process.returncode, said.result(), "")
 
 
 @functools.cache
