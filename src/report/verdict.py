@@ -93,6 +93,8 @@ def what_ran(run):
     wind = _value(scene, "wind", "speed_m_s")
     if isinstance(wind, (int, float)) and wind > 0:
         text += f", wind of {wind:.4g} m/s" + _changes_of_wind(scene)
+    turbine = [f"{said} at {words.number(when)} s" for what, said, when in happenings(run) if what in OF_TURBINES]
+    text += f", {' and '.join(turbine)}" if turbine else ""
     if len(run.time):
         text += f": {run.time[-1]:.6g} pseudo-steps to a steady state" if is_steady(run) else f": {run.time[-1]:.6g} s"
     wall = run.summary.get("wall_seconds")
@@ -120,9 +122,26 @@ def _changes_of_wind(scene):
     return f" with {' and '.join(said)}" if said else ""
 
 
-def _event(run):
-    event = _value(run.scene, "wind", "event")
-    return isinstance(event, dict) and bool(event.get("what"))
+OF_TURBINES = {"start_up": "a start-up", "shut_down": "a shut-down", "emergency_stop": "an emergency stop", "grid_loss": "a loss of the grid", "blade_stuck": "a stuck blade"}
+STOPS = ("shut_down", "emergency_stop", "grid_loss")
+PASSING = ("eog", *STOPS)   # after which no wind blows on, and no turbine runs, as before
+
+
+def happenings(run):
+    """[(what, in words, when [s])] of the gust and of what happens to turbines, within the run."""
+    found, gust = [], _value(run.scene, "wind", "event")
+    if isinstance(gust, dict) and gust.get("what"):
+        found.append((gust["what"], EVENTS.get(gust["what"], gust["what"]), gust.get("start_s", 0.0)))
+    for event in _value(run.scene, "control", "events") or []:
+        found.append((event["what"], OF_TURBINES.get(event["what"], event["what"]), event["time_s"]))
+    return [event for event in found if len(run.time) and event[2] < run.time[-1]]
+
+
+def _passing(run):
+    """In words: what this run is made for, where its means cannot settle; None where they can."""
+    begin = run.time[run.mean_range()[0]][0]
+    shown = [f"{text} at {words.number(when)} s" for what, text, when in happenings(run) if what in PASSING or when >= begin]
+    return " and ".join(shown) or None
 
 
 def is_impact(run):
@@ -211,9 +230,16 @@ def answers(run):
         across = _across(run, name.rpartition(".")[0]) if name.endswith(".thrust_N") else None
         if across is not None and (force := words.mean(run.time[chosen], across[chosen])) > max(abs(mean(name)), run.round_off(name)):   # parked, or far out of the wind
             say(text.replace("thrust", "force in the rotor's plane"), name, force, words.deviation(run.time[chosen], across[chosen]))
-    if _event(run):   # what it is simulated for
+    if happenings(run):   # what it is simulated for
         for text, name in _of_rotors(run, ("thrust", "thrust_N"), ("rotor speed", "rpm")):
             add(f"{text}, least", name, least), add(f"{text}, greatest", name, greatest)
+        for beam in dict.fromkeys(name.rpartition(".")[0] for name in run.columns if name.endswith(".start_mx_N_m")):
+            greatest_of = lambda end, beam=beam: float(np.nanmax(np.hypot(run.column(f"{beam}.{end}_mx_N_m"), run.column(f"{beam}.{end}_my_N_m"))))
+            say(f"bending moment of {beam}, greatest", f"{beam}.start_mx_N_m", max(greatest_of("start"), greatest_of("end")), 0.0)
+        for rotor in quantities.rotors_of(run.columns):
+            if flap := [name for name in run.columns if name.startswith(f"{rotor}.blade_") and name.endswith(".root_flap_N_m")]:
+                hardest = max(flap, key=lambda name: np.nanmax(np.abs(run.column(name)), initial=0.0))
+                add(f"flapwise moment at a root{_of(rotor.partition('.')[2], '.' in rotor)}, greatest", hardest, lambda name: float(np.nanmax(np.abs(run.column(name)))))
     tensions = [n for n in run.columns if n.endswith(".tension_N")]
     if tensions:
         largest = max(tensions, key=lambda n: np.nanmax(run.column(n), initial=0.0))
@@ -414,9 +440,6 @@ def _power(run):
     if len(found) < 2:
         return found[0][1] if found else None
     return Check(found[0][1].level, "Power", "; ".join(f"{name.replace('.', ' ')}: {check.text}" for name, check in found))
-
-
-STOPS = ("shut_down", "emergency_stop", "grid_loss")
 
 
 def _stands_still(run, name):
@@ -740,6 +763,8 @@ def _settled(run):
     asked = _value(run.scene, "output", "means_over_s")
     if isinstance(asked, (int, float)) and run.time[-1] - run.time[0] < 1.2 * asked and not moving and kind(run) == "floating turbine":
         return Check("warn", "Settled", f"not known: the run is hardly longer than the stretch of its means (output.means_over_s = {words.number(asked)}), which begins with the start")
+    if moving and (shown := _passing(run)):
+        return Check("good", "Settled", f"what the run shows is {shown}: its least and greatest values count, no mean does" + mixed)
     if moving:
         return Check("warn", "Settled", "not yet: between the halves of the stretch of the means, " + ", ".join(moving) + " changed"
                      + (": turbulence takes a longer stretch, 600 s as a rule (time.end_s, output.means_over_s)" if _value(run.scene, "wind", "turbulence") else

@@ -879,6 +879,32 @@ class PartsTest(unittest.TestCase):
             self.assertIsNone(power("[control]\nstart = 'parked'\n"))
             self.assertIsNotNone(power(events % "start_up"))
 
+    def test_what_happens_to_a_turbine_is_told_by_its_greatest_loads(self):
+        t = 0.1 * np.arange(1001)
+        passing = np.where(t > 70.0, np.exp(-(t - 70.0) / 8.0), 1.0)
+        table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e6 * passing, "rotor.rpm": 9.0 * passing, "rotor.blade_1.root_flap_N_m": -2e7 * passing,
+                 "tower.start_mx_N_m": 3e7 * passing, "tower.start_my_N_m": 4e7 * passing, "tower.end_mx_N_m": 1e6 * passing, "tower.end_my_N_m": 0 * t}
+        scene = "[wind]\nspeed_m_s = 11.0\n[bodies.float]\nmass_kg = 1.0\n[control]\nevents = [%s]\n"
+        with tempfile.TemporaryDirectory() as folder:
+            def told(*events, from_s=60.0):
+                listed = ", ".join(f"{{ what = '{what}', time_s = {when} }}" for what, when in events)
+                synthetic_run.write(pathlib.Path(folder), table=table, scene=scene % listed, log="", ranges={"end": {"from_s": from_s, "to_s": 100.0}})
+                run = RunData(pathlib.Path(folder))
+                return verdict.what_ran(run), {text: f"{value} {unit}" for text, value, unit in verdict.answers(run)}, {c.title: c for c in verdict.health(run)}["Settled"]
+
+            ran, said, settled = told(("emergency_stop", 70.0))
+            self.assertIn("wind of 11 m/s, an emergency stop at 70.00 s: 100 s", ran)
+            self.assertEqual((settled.level, settled.text), ("good", "what the run shows is an emergency stop at 70.00 s: its least and greatest values count, no mean does"))
+            self.assertEqual({text: said[text] for text in said if text.endswith("greatest")},
+                             {"thrust, greatest": "1.000 MN", "rotor speed, greatest": "9.000 rpm", "bending moment of tower, greatest": "50.00 MN m",
+                              "flapwise moment at a root, greatest": "20.00 MN m"})
+            # A stop that has passed leaves a turbine that stands; a start, or a blade that sticks, one that has to settle.
+            self.assertEqual(told(("grid_loss", 40.0), from_s=75.0)[2].level, "good")
+            self.assertEqual(told(("blade_stuck", 40.0), from_s=75.0)[2].level, "warn")
+            self.assertEqual(told(("blade_stuck", 80.0), from_s=75.0)[2].level, "good")
+            _, said, settled = told(("grid_loss", 100.0))
+            self.assertEqual((settled.level, [text for text in said if text.endswith("greatest")]), ("warn", []))
+
     def test_a_rotor_that_drives_the_air_is_named(self):
         t = 0.1 * np.arange(400)
         table = {"time_s": t, "float.x_m": 0 * t, "rotor.thrust_N": 1e4 + 0 * t, "rotor.power_W": -6e5 + 0 * t}
