@@ -395,6 +395,11 @@ std::vector<std::string> resolution_notes(const SeaOptions& sea, const WavesOpti
           fmt::format("waves left alone with {:.2g} particles to their height lose some {:.1g} % of it in each period, between "
                       "walls up to twice that; [[sea.damping_zones]] with towards = \"waves\" keep it",
                       n, 6.0 / n));
+    // docs/verification/sea.md: .4 to .55 of their height at 2.4 particles to the significant height.
+    if (waves.model == "jonswap" || waves.model == "pierson_moskowitz")
+      notes.push_back(
+          "of a sea state of so few particles waves at twice the peak's frequency lose half of their height within a wave "
+          "length of the peak, those at the peak some per cent: compare spectra");
   }
   if (const double n = draft / spacing; draft > 0.0 && n < to_draft)
     notes.push_back(

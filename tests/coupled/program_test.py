@@ -755,6 +755,9 @@ model = "morison"
         coarse = checked("leble_barakos/case3_demo.toml")[1]
         self.assertIn("note: 0.75 particles to the height of the waves, 1.88 m", coarse)
         self.assertIn("note: 4.95 particles to the draft of 0.15 m", checked("validation/floating_box/floating_box.toml", settings=("sea.particles.spacing_m=0.0303",))[1])
+        short = "note: of a sea state of so few particles waves at twice the peak's frequency lose half of their height"
+        self.assertNotIn(short, coarse)
+        self.assertIn(short, checked("leble_barakos/case3_demo.toml", settings=("waves.model=jonswap",))[1])
         left = "note: waves left alone with 0.75 particles to their height lose some 8 % of it in each period, between walls up to twice that"
         self.assertNotIn(left, coarse)
         self.assertIn(left, checked("leble_barakos/case3_demo.toml", settings=('without=["sea.damping_zones"]',))[1])
