@@ -30,6 +30,17 @@ def values_of(run, name):
     return np.unwrap(values, period=360.0) if name.endswith("_deg") and np.isfinite(values).all() else values
 
 
+def rate_of(name):
+    """spar.vx_m_s of spar.x_m."""
+    body, _, quantity = name.rpartition(".")
+    return f"{body}.v{quantity}_s"
+
+
+def drifting(run):
+    """Columns of motions that nothing brings back, of bodies adrift: no mean of theirs says anything, that of their rate does."""
+    return {name for body in told_bodies.adrift(run) for name in (f"{body}.x_m", f"{body}.y_m") if name in run.columns and rate_of(name) in run.columns}
+
+
 def columns_of(run, body):
     return [name for quantity in BARS if (name := f"{body}.{quantity}") in run.columns]
 

@@ -65,6 +65,15 @@ def told(run):
     return found, carriers or found
 
 
+def adrift(run):
+    """Bodies that float with nothing to keep their place: neither lines nor springs, nor a way to the earth by joints and beams."""
+    held = {body for line in _tables(run, "moorings").values() for body in (line.get("body"), line.get("anchor_body")) if body}
+    held |= {springs["body"] for springs in (run.scene.get("sea") or {}).get("matrices") or [] if springs.get("stiffness")}
+    held |= {body for tie in _ties(run) if "earth" in (tie.get("bodies") or []) for body in _ends(tie)}
+    floats = (run.scene.get("sea") or {}).get("model") not in (None, "none")
+    return {body for body in quantities.bodies_of(run.columns) if floats and not _reached(body, _ties(run)) & held}
+
+
 def towed(run):
     """Bodies that a joint to the earth gives a motion, which need not come to rest, and those tied to them."""
     driven = [joint for joint in _tables(run, "joints").values() if "earth" in (joint.get("bodies") or []) and decay.is_driven(joint)]

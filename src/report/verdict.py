@@ -205,7 +205,7 @@ def answers(run):
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
     bodies, of_headline = told_bodies.told(run)
-    several = _need_names(run, bodies)
+    several, drifts = _need_names(run, bodies), motions.drifting(run)
     if sort == "bodies" and is_impact(run):
         for body in impact.launched(run)[:MOST_BODIES]:
             add(f"heave{_of(body, several)}, at the end", f"{body}.z_m", lambda name: float(run.column(name)[-1]))
@@ -223,7 +223,10 @@ def answers(run):
                 said.append((f"{motion}, damping of critical" + (", first to last swings" if d.falling else ""), of, "%"))
         for body in of_headline[:MOST_BODIES] if not swings else ():
             for name in motions.moved(run, body):
-                add(motions.spoken(name) + _of(body, several), name)
+                if name in drifts:
+                    add(f"drift in {motions.spoken(name)}{_of(body, several)}", motions.rate_of(name))
+                else:
+                    add(motions.spoken(name) + _of(body, several), name)
     for text, name in (*_of_rotors(run, ("thrust", "thrust_N"), ("power", "power_W")), ("lift coefficient", "flow.lift_coefficient"),
                        ("drag coefficient", "flow.drag_coefficient"), *_of_rotors(run, ("electrical power", "electrical_power_W"))):
         add(text, name)
@@ -700,7 +703,7 @@ def _moving_bodies(run, between, chosen):
     bodies, towed = told_bodies.told(run)[0], told_bodies.towed(run)
     random = is_irregular(run) or bool(_value(run.scene, "wind", "turbulence"))
     return [f"{_motion(run, name, bodies)} by {words.number(change, 2)} {quantities.unit_of(name, run.described)}"
-            for name, change in motions.changing(run, [b for b in bodies if b not in towed], between, chosen, random)]
+            for name, change in motions.changing(run, [b for b in bodies if b not in towed], between, chosen, random) if name not in motions.drifting(run)]
 
 
 def _motion(run, name, bodies):
@@ -787,12 +790,12 @@ def _whole_waves(run):
     count, bodies = waves_in_means(run), told_bodies.told(run)[0]
     if not math.isfinite(count) or not bodies:
         return None
-    period, whole = run.scene["waves"]["period_s"], int(count + 1e-6)
+    period, whole, drifts = run.scene["waves"]["period_s"], int(count + 1e-6), motions.drifting(run)
     if whole == 0:
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
     chosen, off = run.mean_range()[0], []
     tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
-    for text, name, least in (*((_motion(run, name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body)),
+    for text, name, least in (*((_motion(run, name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body) if name not in drifts),
                               *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
             values = motions.values_of(run, name)

@@ -665,6 +665,24 @@ class PartsTest(unittest.TestCase):
             said, settled = told(yaw_deg=(180.0 + 5.0 * wave + 180.0) % 360.0 - 180.0)
             self.assertEqual(settled.level, "good")
 
+    def test_a_body_adrift_is_told_by_its_drift_and_does_not_settle_in_place(self):
+        t = 0.05 * np.arange(1201)
+        wave = np.sin(2 * np.pi * t / 6.0)
+        table = {"time_s": t, "raft.x_m": 0.3 * t + 0.5 * wave, "raft.y_m": 0 * t, "raft.z_m": 0.5 * wave, "raft.vx_m_s": 0.3 + 0.5 * np.pi / 3 * np.cos(np.pi * t / 3), "raft.vy_m_s": 0 * t}
+        scene = "[sea]\nmodel = '{}'\n{}[waves]\nmodel = 'airy'\nheight_m = 1.0\nperiod_s = 6.0\n[bodies.raft]\nmass_kg = 1.0\n"
+        line, post = "[moorings.line]\nbody = 'raft'\n", "[joints.post]\nbodies = ['earth', 'raft']\ntype = 'translational'\n"
+        springs = "matrices = [{ body = 'raft', stiffness = [[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]] }]\n"
+        with tempfile.TemporaryDirectory() as folder:
+            for more, sea, adrift in (("", "sph", True), ("", "none", False), (line, "sph", False), (post, "sph", False), (springs, "morison", False)):
+                with self.subTest(more=more, sea=sea):
+                    synthetic_run.write(pathlib.Path(folder), table=table, scene=scene.format(sea, more), log="", ranges={"end": {"from_s": 30.0, "to_s": 60.0}})
+                    run = RunData(pathlib.Path(folder))
+                    said = [text for text, _, _ in verdict.answers(run)]
+                    self.assertEqual(("drift in surge" in said, "surge" in said), (adrift, not adrift))
+                    self.assertEqual({c.title: c for c in verdict.health(run)}["Settled"].level, "good" if adrift else "warn")
+                    if adrift:
+                        self.assertRegex(dict((text, value + " " + unit) for text, value, unit in verdict.answers(run))["drift in surge"], r"^0\.300\d* ± 0\.37 m/s")
+
     def test_a_free_body_with_too_few_swings_still_swings(self):
         t = 0.01 * np.arange(191)
         ripple = 1e-4 * np.sin(40.0 * t)
