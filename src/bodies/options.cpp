@@ -173,6 +173,8 @@ const Section<JointLawOptions>& translation_law_section() {
 
 void check_joint(const JointOptions& o, const scene::Report& report) {
   if (o.bodies.size() == 2 && o.bodies[0] == o.bodies[1]) report("bodies", "a joint ties two different bodies");
+  if (o.type != JointType::fixed && !o.point_m)
+    report("point_m", fmt::format("is needed by a {} joint", joint_type_names[std::size_t(o.type)]));
   if (o.type != JointType::spherical && o.type != JointType::fixed && o.axis.norm() == 0.0)
     report("axis", fmt::format("is needed by a {} joint, and not zero", joint_type_names[std::size_t(o.type)]));
   if (o.type == JointType::universal && o.axis.cross(o.second_axis).norm() <= 1e-9 * o.axis.norm() * o.second_axis.norm())
@@ -274,8 +276,8 @@ const Section<JointOptions>& joint_section() {
           .texts("bodies", &JointOptions::bodies, "First and second body; \"earth\" is the fixed frame.")
           .required()
           .size(2, 2)
-          .vector("point_m", &JointOptions::point_m, "m", "Point of the joint, initial earth coordinates.")
-          .required()
+          .vector("point_m", &JointOptions::point_m, "m",
+                  "Point of the joint, initial earth coordinates; without it the centre of mass of a fixed joint's second body.")
           .vector("axis", &JointOptions::axis, "-", "Direction of the axis; its length does not matter.",
                   scene::between(-1e6, 1e6))
           .only_if("type", {"revolute", "universal", "translational", "cylindrical", "planar"})
@@ -351,11 +353,22 @@ std::vector<Body> make_bodies(const NamedBodies& bodies) {
   return result;
 }
 
+Eigen::Vector3d point_of(const JointOptions& joint, const NamedBodies& bodies) {
+  if (joint.point_m) return *joint.point_m;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (const std::string& name : joint.bodies)
+    if (const int body = index_of(bodies, name); body != earth) point = bodies[std::size_t(body)].options.centre_m;
+  return point;
+}
+
 std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bodies) {
   std::vector<Joint> result;
   for (const auto& [name, o] : joints) {
-    Joint joint{
-        .name = name, .type = o.type, .i = index_of(bodies, o.bodies[0]), .j = index_of(bodies, o.bodies[1]), .point = o.point_m};
+    Joint joint{.name = name,
+                .type = o.type,
+                .i = index_of(bodies, o.bodies[0]),
+                .j = index_of(bodies, o.bodies[1]),
+                .point = point_of(o, bodies)};
     if (o.axis.norm() > 0.0) joint.axis = o.axis.normalized();
     if (o.second_axis.norm() > 0.0) joint.second_axis = o.second_axis.normalized();
     if (o.rotation) joint.rotation = make_rotation(*o.rotation);
@@ -382,7 +395,8 @@ std::vector<JointLaw> make_joint_laws(const NamedJoints& joints, const NamedBodi
   for (const auto& [name, o] : joints) {
     const auto add = [&, &o = o](JointLaw law) {
       const auto from_centre = [&](int body) -> Eigen::Vector3d {
-        return body == earth ? o.point_m : Eigen::Vector3d(o.point_m - bodies[std::size_t(body)].options.centre_m);
+        const Eigen::Vector3d point = point_of(o, bodies);
+        return body == earth ? point : Eigen::Vector3d(point - bodies[std::size_t(body)].options.centre_m);
       };
       law.i = index_of(bodies, o.bodies[0]), law.j = index_of(bodies, o.bodies[1]), law.axis = o.axis.normalized();
       law.point_i = from_centre(law.i), law.point_j = from_centre(law.j);

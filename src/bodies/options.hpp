@@ -91,7 +91,7 @@ struct JointLawOptions {
 struct JointOptions {
   JointType type = JointType::revolute;
   std::vector<std::string> bodies;
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();  ///< initial earth coordinates
+  std::optional<Eigen::Vector3d> point_m;  ///< initial earth coordinates
   Eigen::Vector3d axis = Eigen::Vector3d::Zero(), second_axis = Eigen::Vector3d::Zero();
   std::optional<DriverOptions> rotation, translation;
   std::optional<JointLawOptions> rotation_law, translation_law;
@@ -114,6 +114,8 @@ Motion described_motion(const BodyOptions& body);
 /// How the body starts (displacement, rotation about the reference point, velocities).
 Motion start_motion(const BodyOptions& body);
 
+/// The point of a joint in initial earth coordinates; where none is given the centre of mass of its last body.
+Eigen::Vector3d point_of(const JointOptions& joint, const NamedBodies& bodies);
 /// Options that passed check_bodies. Throws scene::SceneError where a driver's table cannot be read.
 std::vector<Body> make_bodies(const NamedBodies& bodies);
 std::vector<Joint> make_joints(const NamedJoints& joints, const NamedBodies& bodies);

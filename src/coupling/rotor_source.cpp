@@ -24,7 +24,7 @@ aero::RotorPlacement place_rotor(const Scenario& s) {
     if (name == s.rotor.joint) {
       const bool second = joint.bodies[1] == s.rotor.body;
       placement.support = bodies::index_of(s.bodies, joint.bodies[second ? 0 : 1]);
-      placement.hub = joint.point_m;
+      placement.hub = bodies::point_of(joint, s.bodies);
       placement.axis = joint.axis;
     }
   return placement;

@@ -105,7 +105,7 @@ void check_particles(scene::Document& document, const Scenario& s) {
 /// Height of the hub above still water as the scene describes it [m].
 double hub_height(const Scenario& s) {
   for (const auto& [name, joint] : s.joints)
-    if (name == s.rotor.joint) return joint.point_m.z();
+    if (name == s.rotor.joint) return bodies::point_of(joint, s.bodies).z();
   return s.rotor.hub_m.z();
 }
 
@@ -409,7 +409,7 @@ PlacedRotor placed_rotor(const Scenario& s) {
   PlacedRotor placed{s.rotor, s.rotor_section + ".hub_m"};
   for (const auto& [name, joint] : s.joints)
     if (name == s.rotor.joint) {
-      placed.rotor.hub_m = joint.point_m, placed.rotor.axis = joint.axis;
+      placed.rotor.hub_m = bodies::point_of(joint, s.bodies), placed.rotor.axis = joint.axis;
       placed.hub_key = "joints." + name + ".point_m";
     }
   return placed;

@@ -113,6 +113,17 @@ TEST_CASE("a joint's law is read in degrees, and its table gives the load on the
   CHECK(laws[0].load({-3.0, 0.0}) == Approx(7.0 * (3.0 + pi / 2 - 2.0 * pi) + 200.0));  // the first row holds
 }
 
+TEST_CASE("a fixed joint needs no point: it is the centre of mass of the second body", "[bodies][fast]") {
+  const auto point = [](const std::string& tied) {
+    const Read scene = read(platform + rotor + "[joints.weld]\ntype = 'fixed'\n" + tied);
+    return make_joints(scene.joints, scene.bodies)[0].point;
+  };
+  CHECK(point("bodies = ['platform', 'rotor']\n") == Vector3d(1, 0, 100));
+  CHECK(point("bodies = ['earth', 'platform']\n") == Vector3d(0, 0, 10));
+  CHECK(point("bodies = ['platform', 'earth']\n") == Vector3d(0, 0, 10));
+  CHECK(point("bodies = ['earth', 'platform']\npoint_m = [0, 0, -4]\n") == Vector3d(0, 0, -4));
+}
+
 TEST_CASE("published inertias of a flat body, rounded, are a body's", "[bodies][fast]") {
   // The ITI barge of OpenFAST's tests: 7e-5 beyond what a plate has.
   const Read scene =
@@ -135,6 +146,7 @@ TEST_CASE("a malformed body or joint is refused with what is wrong", "[bodies][f
            "known: platform, earth"},
       Case{platform + "[joints.a]\nbodies = ['platform', 'platform']\npoint_m = [0, 0, 0]\naxis = [1, 0, 0]\n",
            "two different bodies"},
+      Case{platform + "[joints.a]\nbodies = ['platform', 'earth']\naxis = [1, 0, 0]\n", "is needed by a revolute joint"},
       Case{platform + "[joints.a]\nbodies = ['platform']\npoint_m = [0, 0, 0]\naxis = [1, 0, 0]\n", "bodies"},
       Case{platform + "[joints.a]\nbodies = ['platform', 'earth']\npoint_m = [0, 0, 0]\naxis = [0, 0, 0]\n", "not zero"},
       Case{platform + "[joints.a]\ntype = 'hinge'\nbodies = ['platform', 'earth']\npoint_m = [0, 0, 0]\n", "revolute"},
