@@ -4,8 +4,12 @@
 // tests/kernels/waves/cummins_test.cpp. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "kernels/base/constants.hpp"
 
@@ -31,13 +35,32 @@ inline double retardation(std::span<const double> omega, std::span<const double>
   return 2.0 / pi * sum;
 }
 
-/// Added mass at infinite frequency from that at one frequency and the retardation function at steps of h, K[0] at t = 0: by the
-/// trapezoidal rule.
-inline double infinite_added_mass(double added_mass, double omega, std::span<const double> retardation, double h) {
-  double sum = 0.0;
-  for (std::size_t n = 1; n < retardation.size(); ++n)
-    sum += (n + 1 == retardation.size() ? 0.5 : 1.0) * retardation[n] * std::sin(omega * double(n) * h);
-  return added_mass + sum * h / omega;
+/// Added mass at infinite frequency with which the retardation function at steps of h, K[0] at t = 0, gives the added mass of the
+/// frequencies [rad/s] in the middle: the median over the lower 0.7 of them, each by the trapezoidal rule. Damping that ends
+/// before it has died out is a jump there, near which Ogilvie's integral goes to infinity as a logarithm. Far below it the lost
+/// part is a constant, and is in what this returns. A median does not mind irregular frequencies.
+inline double infinite_added_mass(std::span<const double> omega, std::span<const double> added_mass,
+                                  std::span<const double> retardation, double h) {
+  constexpr double lower = 0.7;
+  std::vector<std::pair<double, double>> found;  // by frequency: added mass, share of the axis
+  double all = 0.0;
+  for (std::size_t k = 0; k < omega.size() && (k == 0 || omega[k] <= lower * omega.back()); ++k) {
+    const std::complex<double> turn = std::polar(1.0, omega[k] * h);
+    std::complex<double> at = 1.0;
+    double sum = 0.0;
+    for (std::size_t n = 1; n < retardation.size(); ++n) {
+      at *= turn;
+      sum += (n + 1 == retardation.size() ? 0.5 : 1.0) * retardation[n] * at.imag();
+    }
+    const double before = k == 0 ? 0.0 : omega[k - 1], after = omega[std::min(k + 1, omega.size() - 1)];
+    found.emplace_back(added_mass[k] + sum * h / omega[k], after - before);
+    all += after - before;
+  }
+  std::sort(found.begin(), found.end());
+  double below = 0.0;
+  for (const auto& [mass, share] : found)
+    if ((below += share) >= 0.5 * all) return mass;
+  return found.back().first;
 }
 
 }  // namespace spindrift::waves

@@ -77,6 +77,8 @@ scene::Doubts plain_doubts(const FloatingSystem& floating, std::span<const Motio
     around.masses_kg[name] = body.mass_kg, around.centres[name] = body.centre_m, around.pieces[name] = bodies::pieces(body);
     if (const Eigen::AlignedBox3d box = bodies::bounds(body); !box.isEmpty())
       around.shapes[name] = box, in_sea.boxes.emplace_back(name, box);
+    for (const bodies::CylinderOptions& c : body.cylinders)
+      in_sea.members.push_back({c.name, std::max(c.diameter_m, c.end_diameter_m.value_or(0.0)), c.start_m, c.end_m});
   }
   append(all, line_doubts(s.moorings, around));
   append(all, junction_doubts(s.junctions, around));

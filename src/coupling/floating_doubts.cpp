@@ -112,17 +112,61 @@ void doubt_matrices(scene::Doubts& doubts, const Scenario& s) {
   }
 }
 
-/// The water's memory of the hull, cut off while it still acts.
+/// The water's memory of the hull, cut off while it still acts, in time or by the files' last frequency; waves beyond that.
 void doubt_memory(scene::Doubts& doubts, const FloatingSystem& floating) {
   constexpr double most = 0.05;
-  if (!floating.sea() || !floating.scenario().sea.potential) return;
-  const sea::PotentialBody::Cut cut = floating.sea()->memory_cut();
+  const sea::PotentialBody* body = floating.sea() ? floating.sea()->potential() : nullptr;
+  if (!body) return;
+  const sea::PotentialOptions& o = *floating.scenario().sea.potential;
+  if (const sea::PotentialBody::CutDamping& cut = body->cut_damping();
+      o.radiation != "none" && cut.share > sea::PotentialBody::died_out)
+    doubts.push_back({"sea.potential.radiation_file",
+                      fmt::format("damping of {} at {:.2g} of its largest at the last frequency, {:.4g} rad/s",
+                                  bodies::freedom_names[std::size_t(cut.mode)], cut.share, cut.omega),
+                      fmt::format("frequencies until {:g} is left", sea::PotentialBody::died_out),
+                      "the memory lacks what is beyond: added mass and damping are the file's up to some 0.7 of that frequency"});
+  if (const sea::PotentialBody::Unexcited& lost = body->unexcited(); lost.share > most)
+    doubts.push_back({"sea.potential.excitation_file",
+                      fmt::format("{:.0f} % of the waves' energy in waves shorter than {:.4g} s, its shortest",
+                                  100.0 * lost.share, lost.period_s),
+                      fmt::format("up to {:.0f} %", 100.0 * most), "they press on nothing; take shorter periods into the file"});
+  const sea::PotentialBody::Cut& cut = body->cut();
   if (cut.share > most)
     doubts.push_back(
         {"sea.potential.memory_s",
          fmt::format("{:.4g} s, where the water's memory of {} is at {:.2g} of its largest",
                      floating.scenario().sea.potential->memory_s, bodies::freedom_names[std::size_t(cut.mode)], cut.share),
          fmt::format("so long that {:g} is left", most), "the water forgets waves that are still there"});
+}
+
+/// Coefficients of another scale, or over something else than periods: water that goes with a hull weighs about as much as it
+/// displaces, and waves that are long beside it lift it as still water does.
+void doubt_coefficients(scene::Doubts& doubts, const FloatingSystem& floating) {
+  const sea::PotentialBody* water = floating.sea() ? floating.sea()->potential() : nullptr;
+  if (!water) return;
+  const Scenario& s = floating.scenario();
+  constexpr double least = 0.02, most = 50.0;
+  const double gravity = std::abs(s.environment.gravity_m_s2), density = s.environment.water_density_kg_m3;
+  const double mass = weight(floating) / std::max(gravity, 1e-9);
+  if (const double share = water->infinite_added_mass().diagonal().head<3>().maxCoeff() / mass; share < least || share > most)
+    doubts.push_back({"sea.potential.radiation_file", fmt::format("an added mass of {:.2g} times the mass of what floats", share),
+                      fmt::format("{:g} to {:g} times", least, most),
+                      "look at sea.potential.length_m, by which the file is scaled"});
+  const auto body = std::ranges::find(s.bodies, s.sea.potential->body, &scene::Named<bodies::BodyOptions>::name);
+  double stiffness = water->heave_stiffness();
+  for (const bodies::CylinderOptions& c : body->options.cylinders)
+    if (!water->linear_hydrostatics() && c.start_m.z() * c.end_m.z() < 0.0)
+      stiffness += density * gravity * 0.25 * pi * c.diameter_m * c.diameter_m * (c.end_m - c.start_m).norm() /
+                   std::abs(c.end_m.z() - c.start_m.z());
+  constexpr double smallest = 0.5, greatest = 1.5, is_long = 0.3;
+  const auto& [omega, heave] = water->long_waves();
+  const double size = std::max(bodies::extent(body->options), 2.0 * std::cbrt(mass / density));
+  if (omega == 0.0 || stiffness <= 0.0 || omega * omega / gravity * 0.5 * size > is_long) return;
+  if (heave < smallest * stiffness || heave > greatest * stiffness)
+    doubts.push_back({"sea.potential.excitation_file",
+                      fmt::format("{:.4g} N/m of heave in its longest waves, of {:.4g} s, where still water has {:.4g} N/m",
+                                  heave, 2.0 * pi / omega, stiffness),
+                      "about as much", "look at sea.potential.length_m, and whether its first column has periods, in s"});
 }
 
 /// The axes of a boundary-element code begin at its body.
@@ -273,7 +317,7 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std
 void doubt_linear_loads(scene::Doubts& doubts, const FloatingSystem& floating) {
   const Scenario& s = floating.scenario();
   doubt_damping(doubts, s), doubt_matrices(doubts, s), doubt_origin(doubts, s), doubt_yaw(doubts, s);
-  doubt_memory(doubts, floating);
+  doubt_memory(doubts, floating), doubt_coefficients(doubts, floating);
 }
 
 scene::Doubts acceleration_doubts(FloatingSystem& floating, const Start& start) {

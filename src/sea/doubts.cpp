@@ -293,6 +293,30 @@ void doubt_ripples(scene::Doubts& doubts, double length, const WavesOptions& wav
     }
 }
 
+/// Strips and cylinders that are long or wide beside the waves: both are to see one water each.
+void doubt_strips(scene::Doubts& doubts, const SeaOptions& sea, double length, const BodiesInSea& bodies) {
+  constexpr double share = 0.2;
+  double longest = 0.0;  // strip of a member in the water
+  const BodiesInSea::Member* widest = nullptr;
+  for (const BodiesInSea::Member& m : bodies.members) {
+    if (m.bottom() >= 0.0 || m.top() < -0.5 * length) continue;  // where no wave is
+    longest = std::max(longest, std::min(sea.strip_length_m, (m.end - m.start).norm()));
+    const bool scatters = std::ranges::any_of(
+        sea.coefficients, [&](const CoefficientsOptions& c) { return c.cylinder == m.name && c.diffraction != "none"; });
+    if (!scatters && (!widest || m.diameter > widest->diameter)) widest = &m;
+  }
+  if (longest > share * length)
+    doubts.push_back({"sea.strip_length_m", fmt::format("strips of {:.4g} m under waves {:.4g} m long", longest, length),
+                      "up to a fifth of the wave", "the strips do not see the wave; shorten them"});
+  if (widest && widest->diameter > share * length)
+    doubts.push_back(
+        {"sea.coefficients",
+         fmt::format("cylinder {}, {:.4g} m wide, is slender to waves {:.4g} m long", widest->name, widest->diameter, length),
+         fmt::format("up to {:.3g} m, a fifth of the wave", share * length),
+         "it scatters them, and Morison's inertia load is too large: diffraction = \"maccamy_fuchs\" of upright "
+         "columns, else sea.model = \"potential\""});
+}
+
 /// Numbers of the particles that decide cost or damping.
 void doubt_schemes(scene::Doubts& doubts, const ParticleOptions& p, const SeaEnvironment& e, const BodiesInSea& bodies) {
   constexpr double most = 60.0;
@@ -337,12 +361,7 @@ scene::Doubts sea_doubts(const SeaOptions& sea, const WavesOptions& waves, const
   if (sea.model == "morison" && sea.strip_length_m < 0.01 * bodies.draft)
     doubts.push_back({"sea.strip_length_m", fmt::format("{:.4g} m along a draft of {:.4g} m", sea.strip_length_m, bodies.draft),
                       "a hundredth of the draft or more", "the cost goes with their number; look at its unit: m"});
-  if (sea.model == "morison" && wavy) {
-    const double length = wave_length(waves.period_s, e);
-    if (sea.strip_length_m > length / 5.0)
-      doubts.push_back({"sea.strip_length_m", fmt::format("{:.4g} m under waves {:.4g} m long", sea.strip_length_m, length),
-                        "up to a fifth of the wave", "the strips do not see the wave; shorten them"});
-  }
+  if (sea.model == "morison" && wavy) doubt_strips(doubts, sea, wave_length(waves.period_s, e), bodies);
   if (!sea.has_particles() || !sea.particles) return doubts;
   doubt_tank(doubts, sea, waves, e, bodies);
   doubt_boxes_of_water(doubts, sea, e);

@@ -325,10 +325,10 @@ void EngineeringSea::add(double t, std::span<const Motion> bodies, std::span<Wre
   }
 }
 
-PotentialBody::Cut EngineeringSea::memory_cut() const {
+const PotentialBody* EngineeringSea::potential() const {
   for (const BodyStrips& body : bodies_)
-    if (body.potential) return body.potential->cut();
-  return {};
+    if (body.potential) return &*body.potential;
+  return nullptr;
 }
 
 std::size_t EngineeringSea::memory_size() const {

@@ -71,8 +71,8 @@ class EngineeringSea {
   const WaveField& waves() const { return waves_; }
   bool has_added_mass() const { return strips_load_; }
 
-  /// Of the body in potential flow; none without it.
-  PotentialBody::Cut memory_cut() const;
+  /// The body in potential flow; null without one.
+  const PotentialBody* potential() const;
 
   // What the water remembers, as bodies::Memory has it.
   std::size_t memory_size() const;

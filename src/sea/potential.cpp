@@ -56,23 +56,24 @@ waves::RadiationPoles fit_poles(const std::vector<double>& series, double step, 
   throw scene::SceneError({{file, 0, key, value, message}});
 }
 
-/// Added mass at infinite frequency and damping of a mode by itself are energy and its loss: neither is below zero, round-off and
-/// irregular frequencies aside. Of modes that have next to none beside the others of their kind (yaw of what is round) the files
-/// have noise.
-void require_passive(const PotentialOptions& o, const WamitRadiation& radiation, const Matrix6& infinite) {
-  constexpr double much = 0.5, noise = 1e-4;
-  const auto largest = [](const std::vector<Matrix6>& all, int i) {
+/// The largest added mass or damping of a mode by itself; zero where it is noise, as of modes that have next to none beside the
+/// others of their kind (yaw of what is round).
+double size(const std::vector<Matrix6>& all, int i) {
+  constexpr double noise = 1e-4;
+  const auto largest = [&](int mode) {
     double most = 0.0;
-    for (const Matrix6& m : all) most = std::max(most, std::abs(m(i, i)));
+    for (const Matrix6& m : all) most = std::max(most, std::abs(m(mode, mode)));
     return most;
   };
-  // Of this mode, zero where it is noise.
-  const auto size = [&](const std::vector<Matrix6>& all, int i) {
-    const int first = i < 3 ? 0 : 3;
-    const double own = largest(all, i),
-                 of_kind = std::max({largest(all, first), largest(all, first + 1), largest(all, first + 2)});
-    return own > noise * of_kind ? own : 0.0;
-  };
+  const int first = i < 3 ? 0 : 3;
+  const double own = largest(i), of_kind = std::max({largest(first), largest(first + 1), largest(first + 2)});
+  return own > noise * of_kind ? own : 0.0;
+}
+
+/// Added mass at infinite frequency and damping of a mode by itself are energy and its loss: neither is below zero, round-off and
+/// irregular frequencies aside.
+void require_passive(const PotentialOptions& o, const WamitRadiation& radiation, const Matrix6& infinite) {
+  constexpr double much = 0.5;
   for (int i = 0; i < 6; ++i) {
     const double damping = size(radiation.damping, i), mass = size(radiation.added_mass, i);
     for (std::size_t k = 0; k < radiation.omega.size(); ++k)
@@ -128,11 +129,32 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
   if (o.drift != "none" || !o.sum_frequency_file.empty()) second_order_.emplace(o, scale, waves);
   const WamitExcitation excitation = read_excitation(o.excitation_file, scale);
   require_headings(o.excitation_file, excitation.heading, waves);
+  long_waves_ = {excitation.omega.front(), std::abs(excitation.force.front()[2])};
+  double energy = 0.0, lost = 0.0;
+  for (const waves::Component& wave : waves) {
+    energy += wave.amplitude * wave.amplitude;
+    if (wave.angular_frequency > excitation.omega.back() * (1.0 + 1e-9)) lost += wave.amplitude * wave.amplitude;
+  }
+  unexcited_ = {energy > 0.0 ? lost / energy : 0.0, 2.0 * pi / excitation.omega.back()};
+  if (constexpr double most = 0.5; unexcited_.share > most)
+    refuse("", "waves.period_s", "",
+           fmt::format("{:.0f} % of the waves' energy is in shorter waves than any of {}, whose shortest is {:.4g} s: they would "
+                       "press on nothing",
+                       100.0 * unexcited_.share, o.excitation_file, unexcited_.period_s));
   for (const waves::Component& wave : waves) {
     const double along = std::cos(wave.direction) * o.point_m.x() + std::sin(wave.direction) * o.point_m.y();
     exciting_.push_back({wave.angular_frequency, wave.phase + wave.wave_number * along,
                          wave.amplitude * excitation.at(wave.angular_frequency, wave.direction)});
   }
+}
+
+/// Where a mode's damping ends before it has died out the memory lacks a part, and what the file has at infinite frequency no
+/// longer goes with it.
+void PotentialBody::note_cut_damping(const WamitRadiation& radiation) {
+  for (int i = 0; i < 6; ++i)
+    if (const double most = size(radiation.damping, i); most > 0.0)
+      if (const double share = std::abs(radiation.damping.back()(i, i)) / most; share > cut_damping_.share)
+        cut_damping_ = {i, share, radiation.omega.back()};
 }
 
 /// Added mass at infinite frequency, and the memory: of each pair of modes that the file's damping is more than round-off for.
@@ -141,7 +163,9 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
   if (o.radiation != "none" && steps < 2)
     refuse("", "sea.potential.memory_s", fmt::format("{:g}", o.memory_s),
            fmt::format("must be at least two steps of {:g} s: the water would remember nothing, as with radiation none", step_));
-  std::vector<double> damping(radiation.omega.size());
+  note_cut_damping(radiation);
+  const bool whole = radiation.infinite && cut_damping_.share <= died_out;
+  std::vector<double> damping(radiation.omega.size()), added_mass(radiation.omega.size());
   std::vector<RetardationSeries> all;
   std::vector<StateSpaceMemory::Fit> fits;
   Matrix6 from_memory = Matrix6::Zero(), sizes = Matrix6::Zero();
@@ -153,21 +177,22 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
       double most = 0.0;
       for (std::size_t k = 0; k < damping.size(); ++k) {
         damping[k] = 0.5 * (radiation.damping[k](i, j) + radiation.damping[k](j, i));
+        added_mass[k] = 0.5 * (radiation.added_mass[k](i, j) + radiation.added_mass[k](j, i));
         most = std::max(most, std::abs(damping[k]));
       }
       // Below this share of the modes' own damping a coefficient is the boundary elements' round-off.
       constexpr double noise = 1e-6;
       const bool remembers = steps > 0 && most > noise * std::sqrt(largest[i] * largest[j]) && most > 0.0;
-      const std::size_t last = radiation.omega.size() - 1;
-      from_memory(i, j) = 0.5 * (radiation.added_mass[last](i, j) + radiation.added_mass[last](j, i));
+      from_memory(i, j) =
+          radiation.infinite ? 0.5 * ((*radiation.infinite)(i, j) + (*radiation.infinite)(j, i)) : added_mass.back();
       if (!remembers) continue;
       RetardationSeries series{i, j, std::vector<double>(steps + 1)};
       for (std::size_t n = 0; n <= steps; ++n) series.values[n] = waves::retardation(radiation.omega, damping, double(n) * step_);
       if (i == j) note_cut(i, series.values);
-      from_memory(i, j) = waves::infinite_added_mass(from_memory(i, j), radiation.omega[last], series.values, step_);
+      if (!whole) from_memory(i, j) = waves::infinite_added_mass(radiation.omega, added_mass, series.values, step_);
       all.push_back(std::move(series));
     }
-  infinite_ = radiation.infinite ? Matrix6(0.5 * (*radiation.infinite + radiation.infinite->transpose())) : from_memory;
+  infinite_ = from_memory;
   require_passive(o, radiation, infinite_);
   if (steps == 0) return;
   if (o.radiation == "convolution") {

@@ -54,12 +54,33 @@ class PotentialBody {
     double share = 0.0;
   };
   const Cut& cut() const { return cut_; }
+  /// The mode whose damping is nearest to its largest at the last frequency of the file [rad/s]. Above `died_out` the added mass
+  /// at infinite frequency is the one with which the memory gives the file's added mass at its middle frequencies.
+  static constexpr double died_out = 0.15;
+  struct CutDamping {
+    int mode = 0;
+    double share = 0.0, omega = 0.0;
+  };
+  const CutDamping& cut_damping() const { return cut_damping_; }
+  /// Of the waves, the share of their energy beyond the excitation's last frequency, and its period [s].
+  struct Unexcited {
+    double share = 0.0, period_s = 0.0;
+  };
+  const Unexcited& unexcited() const { return unexcited_; }
+  /// Heave force per amplitude of the longest waves of the file, in its first direction [rad/s, N/m]; 0 without waves.
+  struct LongWaves {
+    double omega = 0.0, heave_N_m = 0.0;
+  };
+  const LongWaves& long_waves() const { return long_waves_; }
+  /// By the file of hydrostatics [N/m]; 0 without one.
+  double heave_stiffness() const { return stiffness_(2, 2); }
   /// Numbers that a fitted state space has; 0 of the others.
   std::size_t states() const;
 
  private:
   void make_radiation(const PotentialOptions& options, const WamitRadiation& file);
   void note_cut(int mode, std::span<const double> memory);
+  void note_cut_damping(const WamitRadiation& file);
 
   SeaEnvironment environment_;
   Motion initial_;
@@ -75,6 +96,9 @@ class PotentialBody {
   std::optional<SecondOrderLoads> second_order_;
   double step_;
   Cut cut_;
+  CutDamping cut_damping_;
+  Unexcited unexcited_;
+  LongWaves long_waves_;
   std::variant<std::monostate, ConvolutionMemory, StateSpaceMemory> memory_;
   bool recalled_ = false;
 };

@@ -1,9 +1,12 @@
 // Rules between the sections of the sea of a scene: declared in engineering_sea.hpp and
 // wave_field.hpp. SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "kernels/base/constants.hpp"
 #include "kernels/waves/stokes.hpp"
 #include "src/scene/error.hpp"
 #include "src/sea/engineering_sea.hpp"
@@ -128,6 +131,15 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
     if (options.coefficients[i].diffraction == "none") continue;
     const std::string key = "sea.coefficients[" + std::to_string(i) + "].diffraction";
     if (options.model == "potential") problems.push_back({key, "has no effect: sea.model is \"potential\"", "sea.model"});
+    constexpr double most_degrees = 10.0;
+    for (const SeaBody& body : bodies)
+      for (const NamedCylinder& c : body.cylinders) {
+        const Eigen::Vector3d along = c.shape.axis();
+        const double lean = std::acos(std::min(1.0, std::abs(along.z()))) / radians_per_degree;
+        if (c.name == name && lean > most_degrees)
+          problems.push_back(
+              {key, fmt::format("is of upright columns, up to {:g} degrees; '{}' leans by {:.3g}", most_degrees, name, lean)});
+      }
     if (waves.model == "none")
       problems.push_back({key, "has no effect: there are no waves"});
     else if (wave_models().named(waves.model).nonlinear)

@@ -38,9 +38,29 @@ TEST_CASE("memory of finer frequencies converges to the closed form at second or
   CHECK(observed_order(h, error) > 1.5);
 }
 
-TEST_CASE("added mass at infinite frequency follows from that at one frequency and the memory", "[waves][fast]") {
-  const double infinite = 7.0, w = GENERATE(0.3, 1.0, 3.0), step = 0.01;
-  std::vector<double> memory;
+TEST_CASE("added mass at infinite frequency follows from that at others and the memory", "[waves][fast]") {
+  const double infinite = 7.0, step = 0.01;
+  std::vector<double> memory, omega, added_mass;
   for (int n = 0; n <= 4000; ++n) memory.push_back(k * std::exp(-a * n * step));
-  CHECK(waves::infinite_added_mass(infinite - k / (a * a + w * w), w, memory, step) == Approx(infinite).epsilon(1e-4));
+  for (double w = 0.3; w < 4.0; w += 0.1) omega.push_back(w), added_mass.push_back(infinite - k / (a * a + w * w));
+  CHECK(waves::infinite_added_mass(omega, added_mass, memory, step) == Approx(infinite).epsilon(1e-4));
+  added_mass[10] *= 40.0;  // an irregular frequency
+  CHECK(waves::infinite_added_mass(omega, added_mass, memory, step) == Approx(infinite).epsilon(1e-4));
+  CHECK(waves::infinite_added_mass(std::vector{3.0}, std::vector{infinite - k / (a * a + 9.0)}, memory, step) ==
+        Approx(infinite).epsilon(1e-4));
+}
+
+TEST_CASE("damping that ends before it has died out leaves the added mass of the lower frequencies", "[waves][fast]") {
+  // The memory of damping up to `last` alone; the added mass is that of all of it.
+  const double infinite = 7.0, step = 0.01, last = GENERATE(1.0, 2.0, 4.0);
+  std::vector<double> omega, cut, added_mass, memory;
+  for (double w = 1e-9; w < last; w += 0.02)
+    omega.push_back(w), cut.push_back(damping(w)), added_mass.push_back(infinite - k / (a * a + w * w));
+  for (int n = 0; n <= 20000; ++n) memory.push_back(waves::retardation(omega, cut, n * step));
+  const double found = waves::infinite_added_mass(omega, added_mass, memory, step);
+  for (std::size_t m = 0; m < omega.size() / 2; m += 5) {
+    double integral = 0.0;
+    for (std::size_t n = 1; n < memory.size(); ++n) integral += memory[n] * std::sin(omega[m] * double(n) * step) * step;
+    CHECK(std::abs(found - integral / omega[m] - added_mass[m]) < 0.03 * k / (a * a));
+  }
 }

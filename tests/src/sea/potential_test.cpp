@@ -35,12 +35,13 @@ std::complex<double> radiation_of(double w) {
 
 struct Files {
   std::filesystem::path folder = std::filesystem::temp_directory_path() / ("spindrift_potential_" + std::to_string(getpid()));
-  Files() {
+  /// With frequencies up to `last` [rad/s], and the row of an infinite one.
+  explicit Files(double last = 60.0, bool has_infinite = true) {
     std::filesystem::create_directories(folder);
     std::ofstream radiation(folder / "body.1"), excitation(folder / "body.3");
     radiation.precision(12), excitation.precision(12);
-    radiation << "0.0 3 3 " << infinite / density << "\n";
-    for (int n = 1; n <= 3000; ++n) {
+    if (has_infinite) radiation << "0.0 3 3 " << infinite / density << "\n";
+    for (int n = 1; n <= int(std::lround(last / 0.02)); ++n) {
       const double w = 0.02 * n;
       const std::complex<double> r = radiation_of(w);
       radiation << 2.0 * pi / w << " 3 3 " << (infinite + r.imag() / w) / density << " " << r.real() / (density * w) << "\n";
@@ -103,6 +104,42 @@ double exact_decay(double t) {
 }
 
 }  // namespace
+
+TEST_CASE("a file that ends before its damping has died out keeps the body's answer to longer waves, and is told",
+          "[sea][fast]") {
+  const Files files(1.0, GENERATE(true, false));
+  const double w = GENERATE(0.4, 0.5), amplitude = 0.5;
+  const waves::Component wave{.wave_number = w * w / 10.0, .angular_frequency = w, .amplitude = amplitude, .phase = 0.0};
+  const Heave heave = move(files, 0.0, 400.0, 0.1, {wave});
+  const std::complex<double> iw(0.0, w);
+  const std::complex<double> answer = amplitude * density * 10.0 * std::complex<double>(10.0, 5.0) /
+                                      (stiffness - w * w * (mass + infinite) + iw * radiation_of(w));
+  double largest = 0.0;
+  for (std::size_t n = heave.z.size() - 200; n < heave.z.size(); ++n) largest = std::max(largest, std::abs(heave.z[n]));
+  CHECK(largest == Approx(std::abs(answer)).epsilon(0.05));
+  const PotentialBody water(files.options(), {density, 100.0, 10.0}, Motion{}, {}, 0.1);
+  CHECK(water.cut_damping().mode == 2);
+  CHECK(water.cut_damping().omega == Approx(1.0));
+  CHECK(water.cut_damping().share > PotentialBody::died_out);
+  const Files whole;
+  CHECK(PotentialBody(whole.options(), {density, 100.0, 10.0}, Motion{}, {}, 0.1).cut_damping().share < PotentialBody::died_out);
+}
+
+TEST_CASE("waves shorter than those of the excitation's file are counted, and refused where they are most", "[sea][fast]") {
+  const Files files;
+  const auto wave = [](double period, double height) {
+    const double w = 2.0 * pi / period;
+    return waves::Component{.wave_number = w * w / 10.0, .angular_frequency = w, .amplitude = 0.5 * height, .phase = 0.0};
+  };
+  const auto made = [&](const std::vector<waves::Component>& waves) {
+    return PotentialBody(files.options(), {density, 100.0, 10.0}, Motion{}, waves, 0.1);
+  };
+  CHECK(made({wave(2.0, 1.0), wave(8.0, 1.0)}).unexcited().share == 0.0);
+  const PotentialBody body = made({wave(8.0, 3.0), wave(1.0, 1.0)});
+  CHECK(body.unexcited().share == Approx(0.1));
+  CHECK(body.unexcited().period_s == Approx(2.0));
+  CHECK_THROWS_WITH(made({wave(1.9, 1.0)}), Catch::Contains("waves.period_s") && Catch::Contains("whose shortest is 2 s"));
+}
 
 TEST_CASE("free decay with memory is the exact one within 1 % of the start over ten periods", "[sea][fast]") {
   const Files files;
