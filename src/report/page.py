@@ -463,7 +463,8 @@ def timeline(run):
 
 def spectra(runs):
     names, lowest = runs[0].columns, min(marks(runs[0]).values(), default=None)
-    if not len(runs[0].time) or verdict.is_steady(runs[0]) or not quantities.bodies_of(names):
+    water = [(n.rpartition(".")[0], n) for n in names if n.endswith(".elevation_m")][:MOST_SPECTRA] if verdict.is_irregular(runs[0]) else []
+    if not len(runs[0].time) or verdict.is_steady(runs[0]) or not (quantities.bodies_of(names) or water):
         return ""
     if decay.decays(runs[0]) or verdict.is_impact(runs[0]):   # some swings have a period, and no spectrum worth looking at
         return ""
@@ -485,6 +486,8 @@ def spectra(runs):
                 dotted = " Dotted: the motion's own mode, " + ", ".join(f"{m} {f:.3g} Hz" for m, f in own.items()) + "." if own else ""
                 drawn.setdefault(body, []).append(_figure(f"{body}: spectra of {title}", _run_legend(runs), figure, words + dotted))
     first, *others = drawn.values() or [[]]
+    if water and (figure := figures.spectra(runs, water, found)) is not None:   # the sea comes before what it moves
+        first = [_figure("Surface of the water: spectra", _run_legend(runs), figure, words), *first]
     out = f'<div class="figures">{"".join(first)}</div>' if first else ""
     if others:
         out += f'<details><summary>Other bodies</summary><div class="figures">{"".join("".join(o) for o in others)}</div></details>'

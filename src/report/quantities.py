@@ -134,6 +134,10 @@ def groups(names, joints=None):
                 more = " Of a joint: the force on the body that is named; the opposite one acts on the other." if held else ""
                 add(key, f"{body}: {title}", caption + more, [(q, panels[q] + held.get(q, [])) for q in sorted(panels)], bool(bodies) and body != bodies[0])
 
+    for joint, pair in (joints or {}).items():
+        if "earth" in pair:
+            add("moments", f"{joint}: moments", f"Moment of the joint on {pair[-1]} about its point, earth frame.", _triple(names, joint, ("mx", "my", "mz")), True)
+
     rotors = list(dict.fromkeys(n.rpartition(".")[0] for n in names if n.endswith(".thrust_N")))
     for rotor in rotors:
         panels = _triple(names, rotor, ("wind_x", "wind_y", "wind_z", "thrust", "torque", "power", "azimuth", "rpm"),

@@ -65,6 +65,11 @@ def told(run):
     return found, carriers or found
 
 
+def foundations(run):
+    """Joints that hold a body fast to the earth."""
+    return [name for name, joint in _tables(run, "joints").items() if joint.get("type") == "fixed" and "earth" in (joint.get("bodies") or [])]
+
+
 def adrift(run):
     """Bodies that float with nothing to keep their place: neither lines nor springs, nor a way to the earth by joints and beams."""
     held = {body for line in _tables(run, "moorings").values() for body in (line.get("body"), line.get("anchor_body")) if body}

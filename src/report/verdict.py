@@ -201,7 +201,9 @@ def answers(run):
         value = 0.0 if abs(value) <= run.round_off(name) else value
         swings = math.isfinite(swing) and swing > max(SWINGS * abs(value), run.round_off(name))
         unit, factor = quantities.scaled(quantities.unit_of(name, run.described), max(abs(value) if math.isfinite(value) else 0.0, swing if swings else 0.0))
-        said.append((text, words.number(factor * value) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
+        # As far as its swing leaves it digits.
+        digits = min(4, max(1, 2 + math.floor(math.log10(abs(value))) - math.floor(math.log10(swing)))) if swings and value else 4
+        said.append((text, words.number(factor * value, digits) + (f" ± {words.number(factor * swing, 2)}" if swings else ""), unit))
 
     sort, least, greatest = kind(run), lambda name: float(np.nanmin(run.column(name))), lambda name: float(np.nanmax(run.column(name)))
     bodies, of_headline = told_bodies.told(run)
@@ -243,6 +245,12 @@ def answers(run):
             if flap := [name for name in run.columns if name.startswith(f"{rotor}.blade_") and name.endswith(".root_flap_N_m")]:
                 hardest = max(flap, key=lambda name: np.nanmax(np.abs(run.column(name)), initial=0.0))
                 add(f"flapwise moment at a root{_of(rotor.partition('.')[2], '.' in rotor)}, greatest", hardest, lambda name: float(np.nanmax(np.abs(run.column(name)))))
+    if is_irregular(run) and "waves.elevation_m" in run.columns and not _crest(run.scene["waves"]):
+        add("significant height of the waves, 4 sigma", "waves.elevation_m", lambda n: 4.0 * words.deviation(run.time[chosen], run.column(n)[chosen]))
+    for joint in told_bodies.foundations(run) if sort == "bodies" else ():
+        for text, part, unit in (("level force", "f", "N"), ("overturning moment", "m", "N_m")):
+            if {x := f"{joint}.{part}x_{unit}", y := f"{joint}.{part}y_{unit}"} <= set(run.columns):
+                say(f"{text} on {joint}, greatest", x, float(np.nanmax(np.hypot(run.column(x), run.column(y)))), 0.0)
     tensions = [n for n in run.columns if n.endswith(".tension_N")]
     if tensions:
         largest = max(tensions, key=lambda n: np.nanmax(run.column(n), initial=0.0))
@@ -359,7 +367,7 @@ def _draft(run):
             area += math.pi / 4.0 * d0 * d0
     if not area > 0.0:
         return None
-    chosen = run.mean_range()[0]
+    chosen = _last_whole_waves(run)
     mean = lambda name: words.mean(run.time[chosen], run.column(name)[chosen])
     heave, expected = mean(f"{body}.z_m"), (volume - mean(f"{body}.sea.fz_N") / (rho * g)) / area
     off = heave - expected
@@ -785,16 +793,45 @@ def waves_in_means(run):
     return float(run.time[chosen[-1]] - run.time[chosen[0]]) / period
 
 
+def _last_whole_waves(run):
+    """Rows of the means' stretch, of regular waves those of its last whole ones."""
+    chosen, count = run.mean_range()[0], waves_in_means(run)
+    if not count >= 1.0:   # none, or no waves
+        return chosen
+    return chosen & (run.time >= run.time[chosen][-1] - int(count + 1e-6) * run.scene["waves"]["period_s"] - 1e-9)
+
+
+SEA_STATE = 20   # waves of the peak's period below which heights and means of a sea state are chance
+
+
+def _few_waves(run):
+    """A sea state of a few waves is none: its height scatters by a part over the root of twice their number."""
+    waves = run.scene.get("waves") or {}
+    period = waves.get("peak_period_s") or waves.get("period_s")
+    if not is_irregular(run) or _crest(waves) or not isinstance(period, (int, float)) or not period > 0.0 or len(run.time) < 2 or is_steady(run):
+        return None
+    chosen = np.flatnonzero(run.mean_range()[0])
+    count = float(run.time[chosen[-1]] - run.time[chosen[0]]) / period
+    return Check("warn", "Means", f"over {words.number(count, 2)} waves of the sea state's peak: its height, and all that it moves, scatters by chance; take {SEA_STATE} or more, "
+                 "1 h as a rule (time.end_s, output.means_over_s)") if count < SEA_STATE else None
+
+
+def _crest(waves):
+    """Is the sea state there for one crest?"""
+    return bool(waves.get("crest_alone") or waves.get("crest_height_m"))
+
+
 def _whole_waves(run):
     """A mean over a part of a wave holds a part of its swing."""
     count, bodies = waves_in_means(run), told_bodies.told(run)[0]
+    if (few := _few_waves(run)) is not None:
+        return few
     if not math.isfinite(count) or not bodies:
         return None
     period, whole, drifts = run.scene["waves"]["period_s"], int(count + 1e-6), motions.drifting(run)
     if whole == 0:
         return Check("warn", "Means", f"over {words.number(count, 2)} of a wave, which say little: output.means_over_s = {words.number(period)} is one wave")
-    chosen, off = run.mean_range()[0], []
-    tail = chosen & (run.time >= run.time[chosen][-1] - whole * period - 1e-9)
+    chosen, off, tail = run.mean_range()[0], [], _last_whole_waves(run)
     for text, name, least in (*((_motion(run, name, bodies), name, motions.bar(name)) for body in bodies for name in motions.columns_of(run, body) if name not in drifts),
                               *((text, name, 1.0) for text, name in _of_rotors(run, ("thrust", "thrust_N")))):
         if name in run.columns:
