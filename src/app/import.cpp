@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "src/app/commands.hpp"
 #include "src/app/scene_file.hpp"
 #include "src/coupling/floating_system.hpp"
+#include "src/coupling/start.hpp"
 #include "src/import/openfast.hpp"
 #include "src/import/windio.hpp"
 #include "src/io/machine_failure.hpp"
@@ -17,15 +19,51 @@ namespace spindrift::app {
 
 namespace {
 
-/// What was written must be a scene: read as `check` reads it, with the files that it names.
+/// As `check` reads it, with the files that it names. Throws scene::SceneError.
+void read_all(const std::filesystem::path& file) {
+  scene::Document document = load_scene(file.string(), {});
+  const coupling::FloatingSystem floating(coupling::read_scenario(document));
+}
+
+bool is_valid(const std::filesystem::path& file) {
+  try {
+    read_all(file);
+    return true;
+  } catch (const scene::SceneError&) { return false; }
+}
+
+/// What was written must be a scene.
 void require_valid(const std::filesystem::path& file) {
   try {
-    scene::Document document = load_scene(file.string(), {});
-    const coupling::FloatingSystem floating(coupling::read_scenario(document));
+    read_all(file);
   } catch (const scene::SceneError&) {
     fmt::print("\nNot yet a valid scene: mend what follows in {}, or in the deck\n", file.string());
     throw;
   }
+}
+
+/// What blade elements take from a wind [W], at the speed that the scene's table has there.
+double power_in(const std::filesystem::path& file, double wind_m_s) {
+  scene::Document document = load_scene(file.string(), {fmt::format("wind.speed_m_s={:.17g}", wind_m_s)});
+  coupling::FloatingSystem floating(coupling::read_scenario(document));
+  const coupling::Start start = make_start(floating);
+  const coupling::FullLoads full(floating);
+  const aero::RotorLoads& rotor = floating.rotors().front().loads;
+  return rotor.load(0.0, rotor.state(0.0, start.state.motions)).power;
+}
+
+/// The wind at which blade elements have rated power, where that is within the table. The scene must be valid.
+std::optional<double> rated_wind(const decks::Imported& imported) {
+  if (!imported.rating.power_W) return std::nullopt;
+  double low = imported.rating.least_wind, high = imported.rating.most_wind;
+  if (power_in(imported.scene, high) <= *imported.rating.power_W || power_in(imported.scene, low) >= *imported.rating.power_W)
+    return std::nullopt;
+  constexpr int halvings = 10;
+  for (int n = 0; n < halvings; ++n) {
+    const double middle = 0.5 * (low + high);
+    (power_in(imported.scene, middle) < *imported.rating.power_W ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -45,12 +83,14 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
     throw io::InputError(scene.string() +
                          ": is there already; choose another folder with --out, or say --overwrite to replace it");
   const auto tower = arguments.rigid_tower ? decks::ImportedTower::rigid : decks::ImportedTower::as_in_deck;
-  const decks::Imported result =
+  decks::Imported result =
       windio ? decks::import_windio(arguments.file, arguments.out, tower)
              : decks::import_openfast(
                    arguments.file, arguments.out, tower,
                    arguments.rigid_blades ? decks::ImportedBlades::rigid : decks::ImportedBlades::as_in_deck,
                    arguments.quasi_static_lines ? decks::ImportedLines::quasi_static : decks::ImportedLines::as_in_deck);
+  if (windio && is_valid(result.scene))
+    if (const auto wind = rated_wind(result)) result = decks::import_windio(arguments.file, arguments.out, tower, wind);
   fmt::print("{}\n\nCarried over\n", result.scene.string());
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);
   if (!result.left_out.empty()) fmt::print("\nLeft out\n");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@ struct Imported {
   std::filesystem::path scene;        ///< what was written, with its files beside it
   std::vector<std::string> left_out;  ///< what the deck has and the scene has not, one sentence each
   std::vector<std::string> carried;   ///< what the scene has, one line each
+  /// Of a windIO turbine: what its rotor may take from the wind [W], where the file says, and the winds of its operating table
+  /// [m/s].
+  struct Rating {
+    std::optional<double> power_W{};
+    double least_wind = 0.0, most_wind = 0.0;
+  } rating{};
 };
 
 /// A tower that bends in the deck (TwFADOF1 ... TwSSDOF2) is a beam of the scene, or by choice one rigid body with the platform.

@@ -90,19 +90,30 @@ void write_polar(const Key& polar, const std::filesystem::path& file, const std:
 }
 
 struct Operating {
-  double rated_wind = 0.0;                      ///< where the greatest speed is reached at the tip-speed ratio [m/s]
+  double rated_wind = 0.0;  ///< where the greatest speed is reached at the tip-speed ratio, or rated power before [m/s]
   double least = 0.0, most = 0.0, ratio = 0.0;  ///< speeds of the rotor [rad/s]; tip speed over wind
   double cut_in = 0.0;                          ///< [m/s]
+  bool ends_at_power = false;
 };
 
-Operating read_operating(const Key& control, double tip_radius) {
+Operating read_operating(const Key& control, double tip_radius, std::optional<double> rated_wind) {
   const Key torque = control.at("torque"), supervisory = control.at("supervisory");
   Operating o;
   o.least = torque.at("VS_minspd").number(), o.most = torque.at("VS_maxspd").positive(), o.ratio = torque.at("tsr").positive();
   o.cut_in = supervisory.at("Vin").positive();
   if (o.least < 0.0) torque.at("VS_minspd").fail("must not be negative");
   if (o.most <= o.least) torque.at("VS_maxspd").fail(fmt::format("must be more than VS_minspd = {:g}", o.least));
+  // Some files have limits of their own under supervisory, and a ceiling that is never reached above.
+  const auto limit = [&](const char* key) {
+    return supervisory.has(key) ? std::optional<double>(supervisory.at(key).positive()) : std::nullopt;
+  };
+  o.least = std::max(o.least, limit("minOmega").value_or(0.0));
+  o.most = std::min(o.most, limit("maxOmega").value_or(o.most));
+  o.most = std::min(o.most, limit("maxTS").value_or(o.most * tip_radius) / tip_radius);
+  if (o.most <= o.least)
+    supervisory.fail(fmt::format("speeds must be from {:g} rad/s up, of which maxOmega and maxTS leave {:g}", o.least, o.most));
   o.rated_wind = o.most * tip_radius / o.ratio;
+  if (rated_wind && *rated_wind < o.rated_wind) o.rated_wind = *rated_wind, o.ends_at_power = true;
   if (o.rated_wind <= o.cut_in)
     supervisory.at("Vin").fail(
         fmt::format("must be below the wind at which the greatest speed is reached, {:g} m/s", o.rated_wind));
@@ -246,8 +257,8 @@ bool depends_on_reynolds(const Blade& b, const std::map<std::string, Foil>& foil
 void write_operation(const Operating& o, double tip_radius, const std::filesystem::path& file, const std::string& head) {
   std::ofstream table(file);
   table << head << "# Tip-speed ratio " << fmt::format("{:g}", o.ratio)
-        << " between the least and the greatest speed, up to the wind at which that is "
-           "reached.\nwind_m_s,speed_rpm,blade_pitch_deg\n";
+        << " between the least and the greatest speed, up to the wind at which "
+        << (o.ends_at_power ? "blade elements have rated power" : "that is reached") << ".\nwind_m_s,speed_rpm,blade_pitch_deg\n";
   constexpr int rows = 32;
   for (int n = 0; n <= rows; ++n) {
     const double wind = o.cut_in + (o.rated_wind - o.cut_in) * n / rows,
@@ -257,21 +268,31 @@ void write_operation(const Operating& o, double tip_radius, const std::filesyste
 }
 
 /// The shaft of an upwind rotor points down the wind and down: its axis leans by the tilt.
-void write_scene(const Site& site, double wind, bool by_reynolds, const std::string& tower, const std::filesystem::path& file,
-                 const std::string& head) {
+void write_scene(const Site& site, const Operating& o, bool by_reynolds, const std::string& tower,
+                 const std::filesystem::path& file, const std::string& head) {
   std::ofstream scene(file);
-  scene << head << "# The rotor stands in the wind at which its greatest speed is reached.\n"
+  scene << head << "# The rotor stands in the wind at which "
+        << (o.ends_at_power ? "it has rated power" : "its greatest speed is reached") << ".\n"
         << "[time]\nend_s = 10.0\nwindow_s = 0.5\nstep_s = 0.05\n\n"
         << "[bodies.turbine]  # it does not move: its mass does not matter\nmass_kg = 1e6\ninertia_kg_m2 = [1e9, 1e9, 1e9]\n"
         << fmt::format("centre_m = [0.0, 0.0, {:.9g}]\n\n", site.hub_height)
         << "[joints.foundation]\ntype = \"fixed\"\nbodies = [\"earth\", \"turbine\"]\npoint_m = [0.0, 0.0, 0.0]\n\n"
-        << fmt::format("[environment]\nair_density_kg_m3 = {:.9g}\n\n[wind]\nspeed_m_s = {:.9g}\n\n", site.density, wind)
+        << fmt::format("[environment]\nair_density_kg_m3 = {:.9g}\n\n[wind]\nspeed_m_s = {:.9g}\n\n", site.density, o.rated_wind)
         << "[aero]\nmodel = \"bem\"\n"
         << (by_reynolds ? fmt::format("kinematic_viscosity_m2_s = {:.9g}\n", site.viscosity / site.density) : "") << tower << "\n"
         << fmt::format(
                "[rotor]\nbody = \"turbine\"\nturbine = \"turbine.toml\"\nhub_m = [{:.9g}, 0.0, {:.9g}]\n"
                "axis = [{:.9g}, 0.0, {:.9g}]\noperating_point = \"table\"\n",
                -site.overhang, site.hub_height, std::cos(site.tilt), -std::sin(site.tilt));
+}
+
+/// What the rotor may take for the generator's rated power, over the gear's losses.
+std::optional<double> rated_power(const Key& top) {
+  const Key assembly = top.at("assembly"), control = top.at("control").at("supervisory");
+  if (!assembly.has("rated_power") && !control.has("rated_power")) return std::nullopt;
+  const double power = (assembly.has("rated_power") ? assembly : control).at("rated_power").positive();
+  const Key train = top.at("components").at("nacelle").at("drivetrain");
+  return train.has("gearbox_efficiency") ? power / train.at("gearbox_efficiency").positive() : power;
 }
 
 bool has_shape(const Key& tower) { return tower.has("outer_shape_bem"); }
@@ -294,6 +315,11 @@ void tell_left_out(const Key& top, const Blade& b, const std::map<std::string, F
   left_out.push_back("outlines of the airfoils and their pitch axis: a resolved blade needs [turbine] aerofoils");
   left_out.push_back("masses of blades, hub and nacelle, and what bends: the rotor stands in the scene");
   left_out.push_back("pitch above rated wind and the controller: the file gives no pitch table");
+  for (const char* part : {"pitch", "torque", "supervisory"})
+    if (const Key control = top.at("control"); control.has(part) && control.at(part).has("ps_percent"))
+      if (const double share = control.at(part).at("ps_percent").positive(); share < 1.0)
+        left_out.push_back(
+            fmt::format("peak shaving, ps_percent {:g}: thrust near rated wind is that of unpitched blades", share));
   if (parts.has("tower") && !has_shape(parts.at("tower"))) left_out.push_back("components.tower, which has no outer_shape_bem");
   for (const char* part : {"monopile", "floating_platform", "mooring"})
     if (parts.has(part)) left_out.push_back(fmt::format("components.{}", part));
@@ -306,7 +332,8 @@ std::vector<std::string> carried_over(const Blade& b, std::size_t stations, cons
                   b.hub_radius, b.hub_radius + b.out.y.back(), b.cone / radians_per_degree, b.bend.y.back()),
       fmt::format("hub {:g} m above the sea, {:g} m ahead of the tower, tilt {:g} degrees", site.hub_height, site.overhang,
                   site.tilt / radians_per_degree),
-      fmt::format("operation at tip-speed ratio {:g} from {:g} to {:.4g} m/s", o.ratio, o.cut_in, o.rated_wind)};
+      fmt::format("operation at tip-speed ratio {:g} from {:g} to {:.4g} m/s, where {}", o.ratio, o.cut_in, o.rated_wind,
+                  o.ends_at_power ? "blade elements have rated power" : "its greatest speed is reached")};
   if (by_reynolds) carried.push_back("polars at all their Reynolds numbers");
   if (!b.by_thickness)
     carried.push_back("polars by number, which column polar of the planform names: thickness does not fall from root to tip");
@@ -315,7 +342,8 @@ std::vector<std::string> carried_over(const Blade& b, std::size_t stations, cons
 
 }  // namespace
 
-Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder, ImportedTower tower) {
+Imported import_windio(const std::filesystem::path& file, const std::filesystem::path& folder, ImportedTower tower,
+                       std::optional<double> rated_wind) {
   const Key top = load_windio(file), blade_key = top.at("components").at("blade");
   if (blade_key.has("outer_shape"))
     blade_key.at("outer_shape").fail("is windIO 2.x; files of windIO 1.x (outer_shape_bem) are read");
@@ -323,7 +351,7 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
   const std::map<std::string, Foil> foils = read_foils(top.at("airfoils"));
   const Blade blade = read_blade(top, foils);
   const Site site = read_site(top);
-  const Operating operating = read_operating(top.at("control"), blade.tip_radius());
+  const Operating operating = read_operating(top.at("control"), blade.tip_radius(), rated_wind);
   const std::vector<double> stations = stations_of(blade);
 
   Imported result;
@@ -345,7 +373,8 @@ Imported import_windio(const std::filesystem::path& file, const std::filesystem:
                                                 "operation = \"operation.csv\"\nplanform = \"planform.csv\"\npolars = [\n{}]\n",
                                                 blade.count, blade.hub_radius, blade.cone / radians_per_degree, polars);
   write_operation(operating, blade.tip_radius(), folder / "operation.csv", head);
-  write_scene(site, operating.rated_wind, by_reynolds, tower_keys, result.scene, head);
+  write_scene(site, operating, by_reynolds, tower_keys, result.scene, head);
+  result.rating = {rated_power(top), operating.cut_in, operating.rated_wind};
   result.carried = carried_over(blade, stations.size(), site, operating, by_reynolds);
   if (stands) result.carried.push_back("tower: its flow round the blades, and its drag");
   if (bends)

@@ -755,7 +755,7 @@ def _settled(run):
     if free:
         return free
     period = _value(run.scene, "waves", "period_s") or _value(run.scene, "waves", "peak_period_s")
-    if isinstance(period, (int, float)) and period > 0:   # whole waves alone have a mean
+    if isinstance(period, (int, float)) and period > 0 and not is_irregular(run):   # whole waves alone have a mean
         begin, end = run.time[chosen[0]], run.time[chosen[-1]]
         waves = int((end - begin) / period + 1e-6) // 2
         if waves == 0:

@@ -103,6 +103,17 @@ class Program(Folder):
         self.assertIn("environment.air_density_kg_m3", done.stderr)
         self.assertEqual(spindrift("check", self.out / "scene.toml").returncode, 2)
 
+    def test_an_imported_rotor_stands_at_its_rated_power(self):
+        turbine = (ROOT / "tests/src/import/windio_sample.hpp").read_text().partition('R"(')[2].partition(')"')[0]
+        file = self.path / "turbine.yaml"
+        file.write_text(turbine.replace("{number_of_blades", "{rated_power: 3.0e+5, number_of_blades"))
+        done = spindrift("import", file, "--out", self.out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("m/s, where blade elements have rated power", done.stdout)
+        power = re.search(r"blade elements +thrust \S+ kN, power (\S+) MW", spindrift("check", self.out / "scene.toml").stdout)
+        self.assertAlmostEqual(float(power[1]), 0.3, delta=0.003)
+        self.assertTrue((self.out / "operation.csv").read_text().splitlines()[1].endswith("up to the wind at which blade elements have rated power."))
+
     def recorded(self, *more, ranks=0, threads=None):
         """Five windows of a box in a sea of particles, of which the third and fourth are recorded."""
         box = ROOT / "inputs/validation/floating_box/floating_box.toml"

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "kernels/base/constants.hpp"
 #include "src/aero/turbine.hpp"
 #include "src/coupling/scenario.hpp"
 #include "src/scene/columns.hpp"
@@ -55,6 +56,43 @@ spindrift::scene::Problem windio_refusal(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("a windIO turbine turns within all speed limits of its file, up to the wind that is asked for", "[fast]") {
+  const WindioFolder folder;
+  const auto last_row = [&](const std::string& supervisory, std::optional<double> wind = {}) {
+    std::ofstream(folder.path / "t.yaml") << replaced("{Vin: 3.0}", supervisory);
+    spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out", spindrift::decks::ImportedTower::as_in_deck,
+                                    wind);
+    const std::string table = text_of(folder.path / "out/operation.csv");
+    const std::size_t from = table.find_last_of('\n', table.size() - 2) + 1;
+    double wind_m_s = 0.0, rpm = 0.0;
+    char comma = 0;
+    std::istringstream(table.substr(from)) >> wind_m_s >> comma >> rpm;
+    return std::pair(wind_m_s, rpm * spindrift::rad_s_per_rpm);
+  };
+  // Tip at 52 cos .1 - 2 sin .1 = 51.54 m, ratio 7.
+  CHECK(last_row("{Vin: 3.0}").second == Approx(1.2));
+  CHECK(last_row("{Vin: 3.0, maxOmega: 1.1}").second == Approx(1.1));
+  CHECK(last_row("{Vin: 3.0, maxTS: 50.0}").first == Approx(50.0 / 7.0));
+  CHECK(last_row("{Vin: 3.0, maxTS: 70.0}").second == Approx(1.2));
+  CHECK(last_row("{Vin: 3.0}", 5.0).first == Approx(5.0));
+  CHECK(last_row("{Vin: 3.0}", 50.0).second == Approx(1.2));
+  CHECK(windio_refusal(replaced("{Vin: 3.0}", "{Vin: 3.0, minOmega: 1.0, maxTS: 50.0}")).key == "control.supervisory");
+}
+
+TEST_CASE("of a windIO turbine the rotor's rated power is the generator's over the gear's losses", "[fast]") {
+  const WindioFolder folder;
+  const auto rating = [&](const std::string& from, const std::string& to) {
+    std::ofstream(folder.path / "t.yaml") << replaced(from, to);
+    return spindrift::decks::import_windio(folder.path / "t.yaml", folder.path / "out").rating;
+  };
+  CHECK_FALSE(rating("", "").power_W);
+  CHECK(rating("hub_height", "rated_power: 2.0e6, hub_height").power_W == Approx(2.0e6));
+  CHECK(rating("Vin: 3.0", "Vin: 3.0, rated_power: 3.0e6").power_W == Approx(3.0e6));
+  const auto geared = rating("uptilt: 0.05", "uptilt: 0.05, gearbox_efficiency: 0.95");
+  CHECK_FALSE(geared.power_W);
+  CHECK(geared.least_wind == 3.0);
+}
 
 TEST_CASE("a windIO turbine is carried over with its axes and polars", "[fast]") {
   const WindioFolder folder;

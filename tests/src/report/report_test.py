@@ -459,6 +459,18 @@ class PartsTest(unittest.TestCase):
             self.assertNotIn("significant height of the waves, 4 sigma", said)
             self.assertNotIn("Surface of the water", str(page.spectra([made(440.0, settings("airy"))[0]])))
 
+    def test_a_floater_that_still_drifts_in_a_sea_state_has_not_settled(self):
+        t = 0.1 * np.arange(401)
+        wave = np.sin(2 * np.pi * t / 8.0)
+        table = {"time_s": t, "float.x_m": 0.35 * t + 0.2 * wave, "float.z_m": 0.1 * wave, "rotor.thrust_N": 3e5 + 1e4 * wave}
+        scene = "[sea]\nmodel = 'morison'\n[waves]\nmodel = 'jonswap'\nheight_m = 2.0\nperiod_s = 8.0\n[bodies.float]\nmass_kg = 1.0\n[moorings.line]\nbody = 'float'\n"
+        with tempfile.TemporaryDirectory() as folder:
+            synthetic_run.write(pathlib.Path(folder), table=table, scene=scene, log="", ranges={"end": {"from_s": 27.0, "to_s": 40.0}})
+            found = {c.title: c for c in verdict.health(RunData(pathlib.Path(folder)))}
+            self.assertEqual(found["Settled"].level, "warn")
+            self.assertRegex(found["Settled"].text, r"surge by 2\.\d m changed")
+            self.assertEqual(found["Means"].level, "warn")
+
     def test_what_is_held_in_waves_answers_with_what_holds_it(self):
         t = 0.1 * np.arange(401)
         wave = np.sin(2 * np.pi * t / 8.0)
