@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "kernels/rigid/rotation.hpp"
 #include "kernels/waves/cummins.hpp"
@@ -137,10 +138,11 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
   }
   unexcited_ = {energy > 0.0 ? lost / energy : 0.0, 2.0 * pi / excitation.omega.back()};
   if (constexpr double most = 0.5; unexcited_.share > most)
-    refuse("", "waves.period_s", "",
-           fmt::format("{:.0f} % of the waves' energy is in shorter waves than any of {}, whose shortest is {:.4g} s: they would "
-                       "press on nothing",
-                       100.0 * unexcited_.share, o.excitation_file, unexcited_.period_s));
+    refuse(
+        "", "waves.period_s", "",
+        fmt::format("{:.0f} % of the waves' energy is in shorter waves than any of {}, whose shortest is {:.4g} s: they would "
+                    "press on nothing",
+                    100.0 * unexcited_.share, std::filesystem::path(o.excitation_file).filename().string(), unexcited_.period_s));
   for (const waves::Component& wave : waves) {
     const double along = std::cos(wave.direction) * o.point_m.x() + std::sin(wave.direction) * o.point_m.y();
     exciting_.push_back({wave.angular_frequency, wave.phase + wave.wave_number * along,
