@@ -870,11 +870,18 @@ def health(run):
     return sorted(found, key=lambda c: ORDER[c.level])
 
 
+def _named(check, most=110):
+    """A check by its title, the log by how its first warning begins."""
+    if check.title != "Log":
+        return check.title.lower()
+    return f"log ({check.text if len(check.text) <= most else check.text[: most - 3].rstrip() + '...'})"
+
+
 def headline(checks):
     """(level, words) of all checks together: nobody reads 'done' over a result that is wrong."""
     worst = min((c.level for c in checks), key=ORDER.get)
     if worst == "bad":
         return worst, "Do not trust this run: " + "; ".join(c.title.lower() for c in checks if c.level == "bad")
     if worst == "warn":
-        return worst, "Look before you trust it: " + ", ".join(dict.fromkeys(c.title.lower() for c in checks if c.level == "warn"))
+        return worst, "Look before you trust it: " + ", ".join(dict.fromkeys(_named(c) for c in checks if c.level == "warn"))
     return worst, "Nothing stands against these results"

@@ -471,6 +471,12 @@ class PartsTest(unittest.TestCase):
             self.assertRegex(found["Settled"].text, r"surge by 2\.\d m changed")
             self.assertEqual(found["Means"].level, "warn")
 
+    def test_the_headline_says_what_the_log_warns_of(self):
+        words = lambda text: verdict.headline([verdict.Check("good", "Numbers", "all finite"), verdict.Check("warn", "Power", "mean 16 MW"), verdict.Check("warn", "Log", text)])[1]
+        self.assertEqual(words("1 warning: bodies.float: hits the bed"), "Look before you trust it: power, log (1 warning: bodies.float: hits the bed)")
+        self.assertRegex(words("2 warnings: " + 60 * "long "), r"log \(2 warnings: long .*long\.\.\.\)$")
+        self.assertLess(len(words("2 warnings: " + 60 * "long ")), 160)
+
     def test_what_is_held_in_waves_answers_with_what_holds_it(self):
         t = 0.1 * np.arange(401)
         wave = np.sin(2 * np.pi * t / 8.0)
