@@ -189,9 +189,12 @@ std::vector<OptionProblem> wave_problems(const WavesOptions& options, const SeaE
   const double breaking = 0.142 * wave.length * std::tanh(wave.relative_depth), most = model.regular ? breaking : 0.5 * breaking;
   if (options.height_m > most)
     problems.push_back(
-        {"waves.height_m", text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944; "
-                                "a sea state: half of that)",
-                                options.height_m, most)});
+        {"waves.height_m",
+         model.regular
+             ? text("is %.4g m, but a wave of this period breaks above %.4g m in this depth (Miche 1944)", options.height_m, most)
+             : text("is %.4g m, but a sea state goes up to %.4g m here: half the height at which a wave of "
+                    "this period breaks (Miche 1944)",
+                    options.height_m, most)});
   if (model.check) model.check(options, environment, problems);
   return problems;
 }
