@@ -266,7 +266,9 @@ Table<sph::Wavemaker::Stroke> paddle_columns() {
 
 Table<double> gauge_columns() {
   static constexpr ColumnOf<double> table[] = {
-      {"elevation_m", "m", "height of the water's surface; the bed where there is none", [](const double& v) { return v; }}};
+      {"elevation_m", "m",
+       "height of the water's surface, without particles of the undisturbed waves; the bed where there is none",
+       [](const double& v) { return v; }}};
   return table;
 }
 

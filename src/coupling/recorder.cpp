@@ -54,7 +54,10 @@ Recorder::Recorder(FloatingSystem& floating, io::History& history) : floating_(f
   for (std::size_t j = 0; floating.moorings() && j < floating.moorings()->junctions(); ++j)
     junctions_.emplace_back(history, floating.moorings()->junction_name(j) + ".", junction_columns());
   if (floating.scenario().has_given_waves()) waves_.emplace(history, "waves.", wave_columns());
-  if (floating.particle_plan()) declare_particles(history);
+  if (floating.particle_plan())
+    declare_particles(history);
+  else
+    declare_gauges(history);
 }
 
 void Recorder::declare_rotor(io::History& history, const RotorSource& rotor) {
@@ -102,15 +105,37 @@ void Recorder::fill_rotor(std::span<double> row, const Rotor& columns, const Rot
   }
 }
 
-void Recorder::declare_particles(io::History& history) {
-  const sea::ParticlePlan& plan = *floating_.particle_plan();
-  water_.emplace(history, "sea.", water_columns());
-  if (plan.wavemaker) paddle_.emplace(history, "wavemaker.", paddle_columns());
-  for (const sea::GaugeOptions& gauge : plan.gauges) {
+void Recorder::declare_gauges(io::History& history) {
+  for (const sea::GaugeOptions& gauge : floating_.scenario().sea.gauges) {
     gauges_.emplace_back(history, gauge.name + ".", gauge_columns());
     run_ups_.emplace_back();
     if (!gauge.body.empty()) run_ups_.back().emplace(history, gauge.name + ".", run_up_columns());
   }
+}
+
+template <class Surface>
+void Recorder::fill_gauges(std::span<double> row, std::span<const Motion> motions, const Surface& surface) const {
+  const bodies::NamedBodies& bodies = floating_.scenario().bodies;
+  std::vector<std::array<double, 2>> places;
+  std::vector<double> marks;  // of gauges that go with bodies: where the waterline is
+  for (const sea::GaugeOptions& gauge : floating_.scenario().sea.gauges) {
+    Eigen::Vector3d at(gauge.point_m[0], gauge.point_m[1], 0.0);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (bodies[b].name == gauge.body) at = motions[b].point(at - described_motion(bodies[b].options).position);
+    places.push_back({at[0], at[1]}), marks.push_back(at[2]);
+  }
+  const std::vector<double> heights = surface(places);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    gauges_[n].fill(row, heights[n]);
+    if (run_ups_[n]) run_ups_[n]->fill(row, heights[n] - marks[n]);
+  }
+}
+
+void Recorder::declare_particles(io::History& history) {
+  const sea::ParticlePlan& plan = *floating_.particle_plan();
+  water_.emplace(history, "sea.", water_columns());
+  if (plan.wavemaker) paddle_.emplace(history, "wavemaker.", paddle_columns());
+  declare_gauges(history);
   for (const sea::ProbeOptions& probe : plan.probes) probes_.emplace_back(history, probe.name + ".", probe_columns());
   for (const sea::SensorOptions& sensor : plan.sensors) sensors_.emplace_back(history, sensor.name + ".", sensor_columns());
 }
@@ -121,21 +146,13 @@ void Recorder::fill_particles(std::span<double> row, std::span<const Motion> mot
   const sea::ParticleSea::Counts counts = sea.counts();
   water_->fill(row, {double(counts.lost), double(counts.left), sea.extent()});
   if (paddle_) paddle_->fill(row, sea.paddle(t));
-  std::vector<std::array<double, 2>> places;
-  std::vector<double> marks;  // of gauges that go with bodies: where the waterline is
-  for (const sea::GaugeOptions& gauge : plan.gauges) {
-    Eigen::Vector3d at(gauge.point_m[0], gauge.point_m[1], 0.0);
-    for (std::size_t b = 0; b < plan.bodies.size(); ++b)
-      if (plan.bodies[b].name == gauge.body) at = motions[b].point(at - plan.bodies[b].described.position);
-    places.push_back({at[0], at[1]}), marks.push_back(at[2]);
-  }
   // Where there is no water the surface is the bed and nothing moves: no column holds what is not a number.
-  const std::vector<double> heights = sea.surface(places);
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    const double height = std::isfinite(heights[n]) ? heights[n] : plan.tank.bed_at(places[n][0]);
-    gauges_[n].fill(row, height);
-    if (run_ups_[n]) run_ups_[n]->fill(row, height - marks[n]);
-  }
+  fill_gauges(row, motions, [&](const std::vector<std::array<double, 2>>& places) {
+    std::vector<double> heights = sea.surface(places);
+    for (std::size_t n = 0; n < places.size(); ++n)
+      if (!std::isfinite(heights[n])) heights[n] = plan.tank.bed_at(places[n][0]);
+    return heights;
+  });
   for (std::size_t n = 0; n < sensors_.size(); ++n) sensors_[n].fill(row, sea.sensor(n));
   for (std::size_t n = 0; n < plan.probes.size(); ++n) {
     sea::ParticleSea::Reading reading = sea.probe(plan.probes[n].point_m);
@@ -180,6 +197,12 @@ void Recorder::fill(std::span<double> row, const bodies::BodiesState& state, dou
   }
   if (floating_.particles()) fill_particles(row, state.motions, t);
   if (waves_) waves_->fill(row, floating_.sea()->elevation(0.0, 0.0, t));
+  if (!floating_.particle_plan() && !gauges_.empty())
+    fill_gauges(row, state.motions, [&](const std::vector<std::array<double, 2>>& places) {
+      std::vector<double> heights;
+      for (const auto& [x, y] : places) heights.push_back(floating_.sea()->elevation(x, y, t));
+      return heights;
+    });
 }
 
 }  // namespace spindrift::coupling

@@ -48,6 +48,10 @@ class Recorder {
   void declare_rotor(io::History& history, const RotorSource& rotor);
   void fill_rotor(std::span<double> row, const Rotor& columns, const RotorSource& source, const bodies::BodiesState& state,
                   const bodies::Evaluation& now, double t) const;
+  void declare_gauges(io::History& history);
+  /// Of the water's surface at x and y.
+  template <class Surface>
+  void fill_gauges(std::span<double> row, std::span<const Motion> motions, const Surface& surface) const;
   void declare_particles(io::History& history);
   void fill_particles(std::span<double> row, std::span<const Motion> motions, double t) const;
 

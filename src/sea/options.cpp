@@ -240,7 +240,7 @@ const Section<WavesOptions>& waves_section() {
 
 const Section<SeaOptions>& sea_section() {
   static const std::vector<std::string> wet = {"hydrostatic", "morison", "potential"}, strips = {"morison", "potential"},
-                                        particles = {"sph"};
+                                        particles = {"sph"}, gauged = {"morison", "potential", "sph"};
   static const auto section =
       Section<SeaOptions>("sea", "Hydrodynamic model.")
           .choice("model", &SeaOptions::model,
@@ -300,7 +300,7 @@ const Section<SeaOptions>& sea_section() {
           .table("initial", &SeaOptions::initial, initial_section(), "How the sea starts.")
           .only_if("model", particles)
           .tables("gauges", &SeaOptions::gauges, gauge_section(), "Wave gauges.")
-          .only_if("model", particles)
+          .only_if("model", gauged)
           .tables("probes", &SeaOptions::probes, probe_section(), "Pressure and velocity probes.")
           .only_if("model", particles)
           .tables("sensors", &SeaOptions::sensors, sensor_section(), "Pressure and force on patches of walls and bodies.")

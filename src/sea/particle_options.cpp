@@ -288,14 +288,17 @@ const Section<InitialOptions>& initial_section() {
 }
 
 const Section<GaugeOptions>& gauge_section() {
-  static const auto section = Section<GaugeOptions>("gauges", "A wave gauge: height of the water's surface at a place.")
-                                  .text("name", &GaugeOptions::name, "Name of the columns.")
-                                  .required()
-                                  .vector("point_m", &GaugeOptions::point_m, "m", "x and y.")
-                                  .required()
-                                  .text("body", &GaugeOptions::body,
-                                        "Run-up: the gauge goes with this body, from point_m where the scene describes it; a "
-                                        "spacing off its surface reads best.");
+  static const auto section =
+      Section<GaugeOptions>("gauges",
+                            "A wave gauge: height of the water's surface at a place. Without particles that of the "
+                            "undisturbed waves.")
+          .text("name", &GaugeOptions::name, "Name of the columns.")
+          .required()
+          .vector("point_m", &GaugeOptions::point_m, "m", "x and y.")
+          .required()
+          .text("body", &GaugeOptions::body,
+                "Run-up: the gauge goes with this body, from point_m where the scene describes it; a "
+                "spacing off its surface reads best.");
   return section;
 }
 

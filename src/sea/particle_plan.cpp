@@ -136,7 +136,7 @@ ParticlePlan particle_plan(const SeaOptions& o, const WavesOptions& waves, const
   if (o.initial)  // the sea begins in the waves of then
     for (waves::Component& c : plan.tank.waves) c.phase += c.angular_frequency * o.initial->settle_s;
   plan.settle_damping = o.initial ? o.initial->settle_damping_1_s : 0.0;
-  plan.damping_zones = o.damping_zones, plan.gauges = o.gauges, plan.probes = o.probes, plan.sensors = o.sensors;
+  plan.damping_zones = o.damping_zones, plan.probes = o.probes, plan.sensors = o.sensors;
   if (o.wavemaker) {
     plan.wavemaker = o.wavemaker;
     if (!plan.wavemaker->ramp_s) plan.wavemaker->ramp_s = o.starts_in_waves() ? 0.0 : growth_time(waves);

@@ -59,7 +59,6 @@ struct ParticlePlan {
   std::optional<sph::Wavemaker> paddle;
   std::vector<DampingZoneOptions> damping_zones;
   double settle_damping = 0.0;
-  std::vector<GaugeOptions> gauges;
   std::vector<ProbeOptions> probes;
   std::vector<SensorOptions> sensors;
 

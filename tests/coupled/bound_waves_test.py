@@ -150,5 +150,60 @@ class BoundWaves(Folder):
         self.assertIn("Ursell number", said.stdout + said.stderr)
 
 
+class Gauges(Folder):
+    SETTINGS = ("waves.model=airy", "without=['waves.components', 'waves.spacing', 'waves.seed']", "time.end_s=20.0")
+
+    def run_scene(self, name, more, settings=(), code=0):
+        scene = self.path / f"{name}.toml"
+        scene.write_text(SCENE + more)
+        done = spindrift("run", scene, "--out", self.path / name, "--no-report", "--quiet", settings=(*self.SETTINGS, *settings))
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr if code else columns(self.path / name / "history.csv")
+
+    def test_gauges_read_the_undisturbed_waves_where_they_are(self):
+        k = wave_number(2 * math.pi / PERIOD)
+        found = self.run_scene("still", f"""
+[[sea.gauges]]
+name = "half"
+point_m = [{math.pi / k}, 5.0]
+[[sea.gauges]]
+name = "origin"
+point_m = [0.0, 0.0]
+[[sea.gauges]]
+name = "quarter"
+point_m = [{0.5 * math.pi / k}, 0.0]
+""")
+        t = found["time_s"]
+        for name, phase in (("origin", 0.0), ("quarter", 0.5 * math.pi), ("half", math.pi)):
+            numpy.testing.assert_allclose(found[f"{name}.elevation_m"], 0.5 * HEIGHT * numpy.cos(2 * math.pi * t / PERIOD - phase), atol=2e-3 * HEIGHT)
+        numpy.testing.assert_array_equal(found["origin.elevation_m"], found["waves.elevation_m"])
+
+    def test_a_gauge_goes_with_its_body_and_reads_the_water_over_its_mark(self):
+        free = """
+[joints.held.translation]
+amplitude_m = 1.0
+period_s = 5.0
+[[sea.gauges]]
+name = "gap"
+point_m = [3.0, 0.0]
+body = "pile"
+"""
+        found = self.run_scene("moved", free, ("joints.held.type=translational", "joints.held.axis=[0.0, 0.0, 1.0]"))
+        self.assertGreater(numpy.ptp(found["pile.z_m"]), 1.9)
+        numpy.testing.assert_allclose(found["gap.run_up_m"], found["gap.elevation_m"] - found["pile.z_m"], atol=1e-9)
+
+    def test_what_a_gauge_may_not_ask_is_refused_by_name(self):
+        gauge = lambda name, body="": f"[[sea.gauges]]\nname = '{name}'\npoint_m = [0.0, 0.0]\n" + (f"body = '{body}'\n" if body else "")
+        for name, text, settings, words in (("twice", gauge("a") + gauge("a"), (), "sea.gauges[1].name: is the name of another gauge"),
+                                            ("body", gauge("pile"), (), "sea.gauges[0].name: is the name of a body too"),
+                                            ("nobody", gauge("a", "pole"), (), "sea.gauges[0].body: names 'pole', which is not in [bodies]"),
+                                            ("dotted", gauge("a.b"), (), "must be a name without spaces, commas, dots and quotes")):
+            with self.subTest(name):
+                self.assertIn(words, self.run_scene(name, text, settings, 2))
+        calm = self.path / "calm.toml"
+        calm.write_text(SCENE.partition("[waves]")[0] + gauge("a"))
+        self.assertIn("sea.gauges[0]: has no effect: there are no waves", spindrift("check", calm).stderr)
+
+
 if __name__ == "__main__":
     unittest.main()
