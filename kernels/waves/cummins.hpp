@@ -35,16 +35,15 @@ inline double retardation(std::span<const double> omega, std::span<const double>
   return 2.0 / pi * sum;
 }
 
-/// Added mass at infinite frequency with which the retardation function at steps of h, K[0] at t = 0, gives the added mass of the
-/// frequencies [rad/s] in the middle: the median over the lower 0.7 of them, each by the trapezoidal rule. Damping that ends
-/// before it has died out is a jump there, near which Ogilvie's integral goes to infinity as a logarithm. Far below it the lost
-/// part is a constant, and is in what this returns. A median does not mind irregular frequencies.
+/// Added mass at infinite frequency with which the retardation function at steps of h, K[0] at t = 0, gives the added mass of
+/// most frequencies [rad/s]: the median over them, each by the trapezoidal rule. Damping that ends before it has died out is a
+/// jump there, near which Ogilvie's integral goes to infinity as a logarithm. Far below it the lost part is a constant, and is in
+/// what this returns. A median minds neither that end nor irregular frequencies.
 inline double infinite_added_mass(std::span<const double> omega, std::span<const double> added_mass,
                                   std::span<const double> retardation, double h) {
-  constexpr double lower = 0.7;
   std::vector<std::pair<double, double>> found;  // by frequency: added mass, share of the axis
   double all = 0.0;
-  for (std::size_t k = 0; k < omega.size() && (k == 0 || omega[k] <= lower * omega.back()); ++k) {
+  for (std::size_t k = 0; k < omega.size(); ++k) {
     const std::complex<double> turn = std::polar(1.0, omega[k] * h);
     std::complex<double> at = 1.0;
     double sum = 0.0;

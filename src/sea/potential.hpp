@@ -55,7 +55,7 @@ class PotentialBody {
   };
   const Cut& cut() const { return cut_; }
   /// The mode whose damping is nearest to its largest at the last frequency of the file [rad/s]. Above `died_out` the added mass
-  /// at infinite frequency is the one with which the memory gives the file's added mass at its middle frequencies.
+  /// at infinite frequency is the one with which the memory gives the file's added mass at most of its frequencies.
   static constexpr double died_out = 0.25;
   struct CutDamping {
     int mode = 0;
