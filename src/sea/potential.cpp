@@ -130,7 +130,9 @@ PotentialBody::PotentialBody(const PotentialOptions& o, const SeaEnvironment& en
   if (o.drift != "none" || !o.sum_frequency_file.empty()) second_order_.emplace(o, scale, waves);
   const WamitExcitation excitation = read_excitation(o.excitation_file, scale);
   require_headings(o.excitation_file, excitation.heading, waves);
-  long_waves_ = {excitation.omega.front(), std::abs(excitation.force.front()[2])};
+  for (std::size_t k = excitation.omega.size(); k-- > 0;)  // some files begin with rows of zeros
+    if (const double heave = std::abs(excitation.force[k * excitation.heading.size()][2]); heave > 0.0)
+      long_waves_ = {excitation.omega[k], heave};
   double energy = 0.0, lost = 0.0;
   for (const waves::Component& wave : waves) {
     energy += wave.amplitude * wave.amplitude;

@@ -67,7 +67,7 @@ class PotentialBody {
     double share = 0.0, period_s = 0.0;
   };
   const Unexcited& unexcited() const { return unexcited_; }
-  /// Heave force per amplitude of the longest waves of the file, in its first direction [rad/s, N/m]; 0 without waves.
+  /// Heave force per amplitude of the longest waves of the file that have one, in its first direction [rad/s, N/m].
   struct LongWaves {
     double omega = 0.0, heave_N_m = 0.0;
   };
