@@ -106,7 +106,9 @@ class Program(Folder):
     def test_an_imported_rotor_stands_at_its_rated_power(self):
         turbine = (ROOT / "tests/src/import/windio_sample.hpp").read_text().partition('R"(')[2].partition(')"')[0]
         file = self.path / "turbine.yaml"
-        file.write_text(turbine.replace("{number_of_blades", "{rated_power: 3.0e+5, number_of_blades"))
+        lifting = turbine.replace("c_l: {grid: [-3.141, 0.0, 3.141], values: [0.0, 0.4, 0.0]}", "c_l: {grid: [-3.141, -0.2, 0.2, 3.141], values: [0.0, -0.8, 1.6, 0.0]}")
+        lifting = lifting.replace("grid: [0.0, 0.2, 1.0], labels: [root, root, tip]", "grid: [0.0, 0.1, 1.0], labels: [root, tip, tip]")
+        file.write_text(lifting.replace("{number_of_blades", "{rated_power: 3.0e+5, number_of_blades"))
         done = spindrift("import", file, "--out", self.out)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("m/s, where blade elements have rated power", done.stdout)
