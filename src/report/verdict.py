@@ -248,7 +248,7 @@ def answers(run):
     if is_irregular(run) and "waves.elevation_m" in run.columns and not _crest(run.scene["waves"]):
         add("significant height of the waves, 4 sigma", "waves.elevation_m", lambda n: 4.0 * words.deviation(run.time[chosen], run.column(n)[chosen]))
     for joint in told_bodies.foundations(run) if sort == "bodies" else ():
-        for text, part, unit in (("level force", "f", "N"), ("overturning moment", "m", "N_m")):
+        for text, part, unit in (("horizontal force", "f", "N"), ("overturning moment", "m", "N_m")):
             if {x := f"{joint}.{part}x_{unit}", y := f"{joint}.{part}y_{unit}"} <= set(run.columns):
                 say(f"{text} on {joint}, greatest", x, float(np.nanmax(np.hypot(run.column(x), run.column(y)))), 0.0)
     tensions = [n for n in run.columns if n.endswith(".tension_N")]

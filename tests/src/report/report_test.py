@@ -487,7 +487,7 @@ class PartsTest(unittest.TestCase):
                 synthetic_run.write(pathlib.Path(folder), table=table, scene=scene.format(kind), log="", ranges={"end": {"from_s": 20.0, "to_s": 40.0}})
                 run = RunData(pathlib.Path(folder))
                 said = {text: f"{value} {unit}" for text, value, unit in verdict.answers(run)}
-                self.assertEqual(said, {"level force on foot, greatest": "500.0 kN", "overturning moment on foot, greatest": "13.00 MN m"} if held else {})
+                self.assertEqual(said, {"horizontal force on foot, greatest": "500.0 kN", "overturning moment on foot, greatest": "13.00 MN m"} if held else {})
                 self.assertIn("foot: moments", [g.title for g in quantities.groups(run.columns, {"foot": ["earth", "column"]})])
 
     def test_an_impact_answers_with_its_way_and_its_load(self):
