@@ -19,23 +19,11 @@ namespace spindrift::app {
 
 namespace {
 
-/// As `check` reads it, with the files that it names. Throws scene::SceneError.
-void read_all(const std::filesystem::path& file) {
-  scene::Document document = load_scene(file.string(), {});
-  const coupling::FloatingSystem floating(coupling::read_scenario(document));
-}
-
-bool is_valid(const std::filesystem::path& file) {
-  try {
-    read_all(file);
-    return true;
-  } catch (const scene::SceneError&) { return false; }
-}
-
-/// What was written must be a scene.
+/// What was written must be a scene: read as `check` reads it, with the files that it names.
 void require_valid(const std::filesystem::path& file) {
   try {
-    read_all(file);
+    scene::Document document = load_scene(file.string(), {});
+    const coupling::FloatingSystem floating(coupling::read_scenario(document));
   } catch (const scene::SceneError&) {
     fmt::print("\nNot yet a valid scene: mend what follows in {}, or in the deck\n", file.string());
     throw;
@@ -52,19 +40,19 @@ double power_in(const std::filesystem::path& file, double wind_m_s) {
   return rotor.load(0.0, rotor.state(0.0, start.state.motions)).power;
 }
 
-/// The wind at which blade elements have rated power, where that is within the table. The scene must be valid.
-std::optional<double> rated_wind(const decks::Imported& imported) {
+/// The wind at which blade elements have rated power, where that is within the table of a valid scene.
+std::optional<double> rated_wind(const decks::Imported& imported) try {
   if (!imported.rating.power_W) return std::nullopt;
+  const auto below = [&](double wind) { return power_in(imported.scene, wind) < *imported.rating.power_W; };
   double low = imported.rating.least_wind, high = imported.rating.most_wind;
-  if (power_in(imported.scene, high) <= *imported.rating.power_W || power_in(imported.scene, low) >= *imported.rating.power_W)
-    return std::nullopt;
+  if (!below(low) || below(high)) return std::nullopt;
   constexpr int halvings = 10;
   for (int n = 0; n < halvings; ++n) {
     const double middle = 0.5 * (low + high);
-    (power_in(imported.scene, middle) < *imported.rating.power_W ? low : high) = middle;
+    (below(middle) ? low : high) = middle;
   }
   return low;
-}
+} catch (const scene::SceneError&) { return std::nullopt; }  // require_valid says what
 
 }  // namespace
 
@@ -89,7 +77,7 @@ int import_deck(const ImportArguments& arguments, const runtime::World& world) {
                    arguments.file, arguments.out, tower,
                    arguments.rigid_blades ? decks::ImportedBlades::rigid : decks::ImportedBlades::as_in_deck,
                    arguments.quasi_static_lines ? decks::ImportedLines::quasi_static : decks::ImportedLines::as_in_deck);
-  if (windio && is_valid(result.scene))
+  if (windio)
     if (const auto wind = rated_wind(result)) result = decks::import_windio(arguments.file, arguments.out, tower, wind);
   fmt::print("{}\n\nCarried over\n", result.scene.string());
   for (const std::string& what : result.carried) fmt::print("  {}\n", what);

@@ -25,12 +25,16 @@ double volume(const bodies::BodyOptions& body) {
   return sum;
 }
 
+/// A joint or beam with this body at one end.
+bool ties(const auto& joint_or_beam, const std::string& body) {
+  return std::ranges::find(joint_or_beam.options.bodies, body) != joint_or_beam.options.bodies.end();
+}
+
 /// A driver, or a fixed joint, holds it to the earth: nothing else has to carry it.
 bool held_by_earth(const Scenario& s, const std::string& name) {
   return std::ranges::any_of(s.joints, [&](const auto& joint) {
     const bodies::JointOptions& o = joint.options;
-    const auto ties = [&](const std::string& body) { return std::ranges::find(o.bodies, body) != o.bodies.end(); };
-    return ties(name) && ties("earth") && (o.type == JointType::fixed || o.rotation || o.translation);
+    return ties(joint, name) && ties(joint, "earth") && (o.type == JointType::fixed || o.rotation || o.translation);
   });
 }
 
@@ -38,14 +42,12 @@ bool held_by_earth(const Scenario& s, const std::string& name) {
 /// slam.
 void doubt_above_water(scene::Doubts& doubts, const Scenario& s, const std::string& name, const bodies::Reach& reach) {
   if (s.has_particles() || reach.low <= 0.0 || s.environment.gravity_m_s2 == 0.0) return;
-  const auto ties = [&name = name](const auto& tie) {
-    return std::ranges::find(tie.options.bodies, name) != tie.options.bodies.end();
-  };
+  const auto ties_it = [&name = name](const auto& tie) { return ties(tie, name); };
   const bool moored = std::ranges::any_of(
       s.moorings, [&](const auto& line) { return line.options.body == name || line.options.anchor_body == name; });
   const bool by_matrices = std::ranges::any_of(s.sea.matrices, [&](const auto& m) { return m.body == name; }) ||
                            (s.sea.potential && s.sea.potential->body == name);
-  if (moored || by_matrices || std::ranges::any_of(s.joints, ties) || std::ranges::any_of(s.beams, ties)) return;
+  if (moored || by_matrices || std::ranges::any_of(s.joints, ties_it) || std::ranges::any_of(s.beams, ties_it)) return;
   doubts.push_back({"bodies." + name, fmt::format("is wholly above the water at the start, from z = {:.4g} m up", reach.low),
                     "in the water, or held by a joint, beam or line",
                     "look at the heights of its shapes (still water is z = 0) and at displacement_m"});
@@ -141,7 +143,7 @@ void doubt_memory(scene::Doubts& doubts, const FloatingSystem& floating) {
 
 /// Coefficients of another scale, or over something else than periods: water that goes with a hull weighs about as much as it
 /// displaces, and waves that are long beside it lift it as still water does.
-void doubt_coefficients(scene::Doubts& doubts, const FloatingSystem& floating) {
+void doubt_scale(scene::Doubts& doubts, const FloatingSystem& floating) {
   const sea::PotentialBody* water = floating.sea() ? floating.sea()->potential() : nullptr;
   if (!water) return;
   const Scenario& s = floating.scenario();
@@ -317,7 +319,7 @@ double doubt_floating(scene::Doubts& doubts, const FloatingSystem& floating, std
 void doubt_linear_loads(scene::Doubts& doubts, const FloatingSystem& floating) {
   const Scenario& s = floating.scenario();
   doubt_damping(doubts, s), doubt_matrices(doubts, s), doubt_origin(doubts, s), doubt_yaw(doubts, s);
-  doubt_memory(doubts, floating), doubt_coefficients(doubts, floating);
+  doubt_memory(doubts, floating), doubt_scale(doubts, floating);
 }
 
 scene::Doubts acceleration_doubts(FloatingSystem& floating, const Start& start) {
@@ -330,9 +332,8 @@ scene::Doubts acceleration_doubts(FloatingSystem& floating, const Start& start) 
   const double gravity = std::max(std::abs(floating.scenario().environment.gravity_m_s2), 1.0);
   const auto all = floating.multibody().bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
-    const bool carried = std::ranges::any_of(floating.scenario().beams, [&](const auto& beam) {
-      return std::ranges::find(beam.options.bodies, all[b].name) != beam.options.bodies.end();
-    });
+    const bool carried =
+        std::ranges::any_of(floating.scenario().beams, [&](const auto& beam) { return ties(beam, all[b].name); });
     const double a = now.acceleration[b].norm(), bound = gravity * (carried ? on_a_beam : free_fall);
     if (a <= bound) continue;
     std::size_t worst = 0;

@@ -81,6 +81,22 @@ void check_yaw(scene::Document& document, const Scenario& s) {
                                                       carrier, o.bodies[1]));
 }
 
+/// Names of what reads the water, which columns begin with.
+void check_gauge_names(scene::Document& document, const Scenario& s) {
+  std::set<std::string> taken;
+  const auto check_all = [&](const char* section, const auto& all) {
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const std::string key = fmt::format("sea.{}[{}].name", section, n), &name = all[n].name;
+      if (name.empty() || name.find_first_of(" ,.\"\t\n") != std::string::npos)
+        document.problem(key, "must be a name without spaces, commas, dots and quotes");
+      if (!taken.insert(name).second) document.problem(key, "is the name of another gauge, probe or sensor");
+      for (const auto& body : s.bodies)
+        if (body.name == name) document.problem("bodies." + name, "is the name of a gauge, probe or sensor too");
+    }
+  };
+  check_all("gauges", s.sea.gauges), check_all("probes", s.sea.probes), check_all("sensors", s.sea.sensors);
+}
+
 /// Rules between a sea of particles and the rest of the scene.
 void check_particles(scene::Document& document, const Scenario& s) {
   const std::vector<sea::ParticleBody> bodies = particle_bodies(s.bodies);
@@ -90,13 +106,6 @@ void check_particles(scene::Document& document, const Scenario& s) {
     for (const sea::OptionProblem& p : out_of_plane_problems(s)) document.problem(p.key, p.what, p.follows_from);
   else if (s.sea.tank->symmetric())
     for (const sea::OptionProblem& p : symmetry_problems(s, s.sea.tank->y_m[0])) document.problem(p.key, p.what, p.follows_from);
-  std::vector<std::string> columns;
-  for (const sea::GaugeOptions& gauge : s.sea.gauges) columns.push_back(gauge.name);
-  for (const sea::ProbeOptions& probe : s.sea.probes) columns.push_back(probe.name);
-  for (const sea::SensorOptions& sensor : s.sea.sensors) columns.push_back(sensor.name);
-  for (const std::string& column : columns)
-    for (const auto& body : s.bodies)
-      if (body.name == column) document.problem("bodies." + column, "is the name of a gauge, probe or sensor too");
   if (s.sea.settle_s() > 0.0 && !whole_ratio(s.sea.settle_s(), s.time.window_s))
     document.problem("sea.initial.settle_s", fmt::format("must be a whole number of windows of {} s (nearest: {:.12g} s)",
                                                          s.time.window_s, nearest_multiple(s.sea.settle_s(), s.time.window_s)));
@@ -623,6 +632,7 @@ Scenario read_scenario(scene::Document& document) {
                                      std::pair{"sea.current_profile", !s.sea.current_profile.empty()}})
       if (given) document.problem(key, "has no effect: no body has [[bodies.NAME.cylinders]], and there are no [moorings]");
   if (s.has_sea() && !s.has_particles()) report(shape_problems(sea_environment(s.environment), wetted));
+  check_gauge_names(document, s);
   if (s.has_particles() && s.sea.particles && s.sea.tank) check_particles(document, s);
   if (s.has_waves()) report(wave_problems(s.waves, sea_environment(s.environment)));
   document.finish();

@@ -65,8 +65,7 @@ def _stands(run):
     """Do turbines stand on the ground? Held by a joint that moves nothing or by a rotor's own bearing, or where there is neither water nor mooring to hold them."""
     joints = run.scene.get("joints") or {}
     bearings = [rotor.get("joint") for _, rotor in run.rotors() if isinstance(rotor, dict)]
-    held = any("earth" in joint.get("bodies", []) and (joint.get("type") == "fixed" or (joint.get("type") == "revolute" and name in bearings))
-               for name, joint in joints.items())
+    held = bool(told_bodies.foundations(run)) or any("earth" in joint.get("bodies", []) and joint.get("type") == "revolute" and name in bearings for name, joint in joints.items())
     return held or (_value(run.scene, "sea", "model") in (None, "none") and not run.scene.get("moorings"))
 
 
@@ -110,11 +109,15 @@ def is_irregular(run):
     return _value(run.scene, "waves", "model") in ("jonswap", "pierson_moskowitz", "elevation")
 
 
+def _gust(scene):
+    """[(what, in words, when [s])] of the wind's event, if any."""
+    event = _value(scene, "wind", "event")
+    return [(event["what"], EVENTS.get(event["what"], event["what"]), event.get("start_s", 0.0))] if isinstance(event, dict) and event.get("what") else []
+
+
 def _changes_of_wind(scene):
     """In words: what makes the wind change in time."""
-    event, said = _value(scene, "wind", "event") or {}, []
-    if isinstance(event, dict) and event.get("what"):
-        said.append(EVENTS.get(event["what"], event["what"]) + f" at {event.get('start_s', 0.0):g} s")
+    said = [f"{text} at {when:g} s" for _, text, when in _gust(scene)]
     if _value(scene, "wind", "turbulence"):
         said.append("turbulence")
     if _value(scene, "wind", "table"):
@@ -129,11 +132,7 @@ PASSING = ("eog", *STOPS)   # after which no wind blows on, and no turbine runs,
 
 def happenings(run):
     """[(what, in words, when [s])] of the gust and of what happens to turbines, within the run."""
-    found, gust = [], _value(run.scene, "wind", "event")
-    if isinstance(gust, dict) and gust.get("what"):
-        found.append((gust["what"], EVENTS.get(gust["what"], gust["what"]), gust.get("start_s", 0.0)))
-    for event in _value(run.scene, "control", "events") or []:
-        found.append((event["what"], OF_TURBINES.get(event["what"], event["what"]), event["time_s"]))
+    found = _gust(run.scene) + [(event["what"], OF_TURBINES.get(event["what"], event["what"]), event["time_s"]) for event in _value(run.scene, "control", "events") or []]
     return [event for event in found if len(run.time) and event[2] < run.time[-1]]
 
 
@@ -824,8 +823,6 @@ def _crest(waves):
 def _whole_waves(run):
     """A mean over a part of a wave holds a part of its swing."""
     count, bodies = waves_in_means(run), told_bodies.told(run)[0]
-    if (few := _few_waves(run)) is not None:
-        return few
     if not math.isfinite(count) or not bodies:
         return None
     period, whole, drifts = run.scene["waves"]["period_s"], int(count + 1e-6), motions.drifting(run)
@@ -862,7 +859,7 @@ def health(run):
     if not said and len(run.time):
         found.append(Check("good", "Numbers", f"all {run.values.size:,} of history.csv are finite"))
     found += _places(run)
-    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _air_mass(run), _particles(run), _settled(run), _marched(run), _whole_waves(run), _references(run)) if c]
+    found += [c for c in (_draft(run), _power(run), _lines(run), _energy(run), _water(run), _air_mass(run), _particles(run), _settled(run), _marched(run), _whole_waves(run), _few_waves(run), _references(run)) if c]
     found += _windows(run) + _budgets(run)
     if warnings := run.summary.get("warnings"):
         found.append(Check("warn", "Log", f"{warnings} warning{'s' if warnings != 1 else ''}" + _warned(run, warnings)))

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "kernels/rigid/closed_surface.hpp"
@@ -47,9 +46,8 @@ struct Rules {
   }();
 
   std::vector<OptionProblem> problems = {};
-  std::set<std::string> names = {};  ///< of gauges, probes and sensors
-  bool laid_out = false;             ///< the lattice can be: what looks for places of it may
-  double edge_of_cells = d;          ///< the lattice's, a little off the spacing [m]
+  bool laid_out = false;     ///< the lattice can be: what looks for places of it may
+  double edge_of_cells = d;  ///< the lattice's, a little off the spacing [m]
 
   void wrong(std::string key, std::string what, std::string follows_from = {}) {
     problems.push_back({std::move(key), std::move(what), std::move(follows_from)});
@@ -60,7 +58,6 @@ struct Rules {
   void judge_start();
   void judge_wavemaker();
   void lay_out();
-  void name(const std::string& key, const std::string& value);
   std::span<const ParticleBody>::iterator shaped(const std::string& key, const std::string& body);
   void judge_gauges_and_probes();
   void judge_sensor_of_body(const SensorOptions& sensor, const std::string& key);
@@ -214,12 +211,6 @@ void Rules::lay_out() {
     edge_of_cells = planar ? std::sqrt(sph::TankLattice<2>(tank, d).cell()) : std::cbrt(sph::TankLattice<3>(tank, d).cell());
 }
 
-void Rules::name(const std::string& key, const std::string& value) {
-  if (value.empty() || value.find_first_of(" ,.\"\t\n") != std::string::npos)
-    wrong(key, "must be a name without spaces, commas, dots and quotes");
-  if (!names.insert(value).second) wrong(key, "is the name of another gauge, probe or sensor");
-}
-
 /// The body of this name, which must have a shape; none where it is wrong.
 std::span<const ParticleBody>::iterator Rules::shaped(const std::string& key, const std::string& body) {
   const auto named = std::ranges::find(bodies, body, &ParticleBody::name);
@@ -234,7 +225,6 @@ std::span<const ParticleBody>::iterator Rules::shaped(const std::string& key, co
 void Rules::judge_gauges_and_probes() {
   for (std::size_t n = 0; n < o.gauges.size(); ++n) {
     const std::string key = fmt::format("sea.gauges[{}]", n);
-    name(key + ".name", o.gauges[n].name);
     if (!(o.gauges[n].point_m[0] >= t.x_m[0] && o.gauges[n].point_m[0] <= t.x_m[1]))
       wrong(key + ".point_m", "is outside the tank");
     if (!planar && !(o.gauges[n].point_m[1] >= t.y_m[0] && o.gauges[n].point_m[1] <= t.y_m[1]))
@@ -242,7 +232,6 @@ void Rules::judge_gauges_and_probes() {
   }
   for (std::size_t n = 0; n < o.probes.size(); ++n) {
     const std::string key = fmt::format("sea.probes[{}]", n);
-    name(key + ".name", o.probes[n].name);
     const Eigen::Vector3d& x = o.probes[n].point_m;
     if (!(x[0] >= t.x_m[0] && x[0] <= t.x_m[1]) || (!planar && !(x[1] >= t.y_m[0] && x[1] <= t.y_m[1])))
       wrong(key + ".point_m", "is outside the tank");
@@ -302,7 +291,6 @@ void Rules::judge_sensors() {
   for (std::size_t n = 0; n < o.sensors.size(); ++n) {
     const SensorOptions& sensor = o.sensors[n];
     const std::string key = fmt::format("sea.sensors[{}]", n);
-    name(key + ".name", sensor.name);
     if (sensor.body.empty())
       judge_sensor_of_wall(sensor, key);
     else

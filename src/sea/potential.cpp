@@ -172,7 +172,7 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
   std::vector<double> damping(radiation.omega.size()), added_mass(radiation.omega.size());
   std::vector<RetardationSeries> all;
   std::vector<StateSpaceMemory::Fit> fits;
-  Matrix6 from_memory = Matrix6::Zero(), sizes = Matrix6::Zero();
+  Matrix6 sizes = Matrix6::Zero();
   double largest[6] = {};
   for (const Matrix6& b : radiation.damping)
     for (int i = 0; i < 6; ++i) largest[i] = std::max(largest[i], std::abs(b(i, i)));
@@ -187,16 +187,15 @@ void PotentialBody::make_radiation(const PotentialOptions& o, const WamitRadiati
       // Below this share of the modes' own damping a coefficient is the boundary elements' round-off.
       constexpr double noise = 1e-6;
       const bool remembers = steps > 0 && most > noise * std::sqrt(largest[i] * largest[j]) && most > 0.0;
-      from_memory(i, j) =
+      infinite_(i, j) =
           radiation.infinite ? 0.5 * ((*radiation.infinite)(i, j) + (*radiation.infinite)(j, i)) : added_mass.back();
       if (!remembers) continue;
       RetardationSeries series{i, j, std::vector<double>(steps + 1)};
       for (std::size_t n = 0; n <= steps; ++n) series.values[n] = waves::retardation(radiation.omega, damping, double(n) * step_);
       if (i == j) note_cut(i, series.values);
-      if (!whole) from_memory(i, j) = waves::infinite_added_mass(radiation.omega, added_mass, series.values, step_);
+      if (!whole) infinite_(i, j) = waves::infinite_added_mass(radiation.omega, added_mass, series.values, step_);
       all.push_back(std::move(series));
     }
-  infinite_ = from_memory;
   require_passive(o, radiation, infinite_);
   if (steps == 0) return;
   if (o.radiation == "convolution") {

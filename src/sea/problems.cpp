@@ -152,15 +152,8 @@ std::vector<OptionProblem> sea_problems(const SeaOptions& options, const WavesOp
       problems.push_back({key, "names '" + name + "', which is not in [bodies]; known: " + names});
   };
   for (std::size_t i = 0; i < options.gauges.size(); ++i) {
-    const std::string key = "sea.gauges[" + std::to_string(i) + "]", &name = options.gauges[i].name;
+    const std::string key = "sea.gauges[" + std::to_string(i) + "]";
     if (waves.model == "none") problems.push_back({key, "has no effect: there are no waves", "waves.model"});
-    if (name.empty() || name.find_first_of(" ,.\"\t\n") != std::string::npos)
-      problems.push_back({key + ".name", "must be a name without spaces, commas, dots and quotes"});
-    if (std::count_if(options.gauges.begin(), options.gauges.begin() + std::ptrdiff_t(i),
-                      [&](const auto& g) { return g.name == name; }))
-      problems.push_back({key + ".name", "is the name of another gauge"});
-    if (std::any_of(bodies.begin(), bodies.end(), [&](const SeaBody& b) { return b.name == name; }))
-      problems.push_back({key + ".name", "is the name of a body too"});
     if (!options.gauges[i].body.empty()) check_body(key + ".body", options.gauges[i].body);
   }
   for (std::size_t i = 0; i < options.matrices.size(); ++i)

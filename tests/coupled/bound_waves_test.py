@@ -195,7 +195,7 @@ body = "pile"
     def test_what_a_gauge_may_not_ask_is_refused_by_name(self):
         gauge = lambda name, body="": f"[[sea.gauges]]\nname = '{name}'\npoint_m = [0.0, 0.0]\n" + (f"body = '{body}'\n" if body else "")
         for name, text, settings, words in (("twice", gauge("a") + gauge("a"), (), 'sea.gauges[1].name = "a": is the name of another gauge'),
-                                            ("body", gauge("pile"), (), 'sea.gauges[0].name = "pile": is the name of a body too'),
+                                            ("body", gauge("pile"), (), "bodies.pile: is the name of a gauge, probe or sensor too"),
                                             ("nobody", gauge("a", "pole"), (), "names 'pole', which is not in [bodies]"),
                                             ("dotted", gauge("a.b"), (), "must be a name without spaces, commas, dots and quotes")):
             with self.subTest(name):

@@ -4,7 +4,6 @@ import functools
 import json
 import os
 import subprocess
-import sys
 import time
 import unittest
 
